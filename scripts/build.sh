@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Installs what is missing and builds a preset: scripts/build.sh [release|asan|tsan] [CMake options...]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+preset=${1:-release}
+[ $# -eq 0 ] || shift
+scripts/install.sh
+launcher=()
+command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+cmake --preset "$preset" "${launcher[@]}" "$@" >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
+rm -f build-configure.log
+cmake --build --preset "$preset"

@@ -1,0 +1,34 @@
+#include "core/process_memory.h"
+
+#include <malloc.h>
+
+#include <fstream>
+#include <string>
+
+namespace arris {
+namespace {
+
+std::uint64_t status_bytes(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with(key)) return std::stoull(line.substr(key.size())) * 1024;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::uint64_t peak_resident_bytes() { return status_bytes("VmHWM:"); }
+std::uint64_t resident_bytes() { return status_bytes("VmRSS:"); }
+
+void configure_allocator_for_budget() {
+  // A fixed threshold switches off glibc's habit of raising it after the first large free, which would keep tile-sized
+  // blocks on the heap where fragments hold them.
+  mallopt(M_MMAP_THRESHOLD, 256 * 1024);
+  mallopt(M_TRIM_THRESHOLD, 1024 * 1024);
+  mallopt(M_ARENA_MAX, 4);
+}
+
+void release_free_memory() { malloc_trim(0); }
+
+}  // namespace arris

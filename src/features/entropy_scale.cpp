@@ -1,0 +1,143 @@
+#include "features/entropy_scale.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "features/exact_math.h"
+
+namespace arris {
+namespace {
+
+constexpr std::size_t kLanes = 8;
+
+/// First and second moments of a growing set, relative to the query. Exact while k * distance² < 2^53; beyond, the canonical order
+/// of the neighbours makes the rounding the same everywhere.
+struct RunningMoments {
+  double x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+
+  ARRIS_ALWAYS_INLINE void add(double dx, double dy, double dz) {
+    x += dx;
+    y += dy;
+    z += dz;
+    xx += dx * dx;
+    xy += dx * dy;
+    xz += dx * dz;
+    yy += dy * dy;
+    yz += dy * dz;
+    zz += dz * dz;
+  }
+};
+
+template <class V>
+ARRIS_ALWAYS_INLINE V entropy_term(const V& a) {
+  const V positive = a > 1e-300 ? a : a - a + 1e-300;  // 0 ln 0 = 0.
+  return a * log_of_positive(positive);
+}
+
+template <class V>
+ARRIS_ALWAYS_INLINE V entropy_of(const Eigenvalues<V>& values) {
+  const V zero = values.largest - values.largest;
+  const V l1 = values.largest > 0.0 ? values.largest : zero + 1.0;
+  const V d1 = simd::square_root(l1);
+  const V d2 = simd::square_root(values.middle > 0.0 ? values.middle : zero);
+  const V d3 = simd::square_root(values.smallest > 0.0 ? values.smallest : zero);
+  const V inverse = 1.0 / d1;
+  const V a1 = (d1 - d2) * inverse;
+  const V a2 = (d2 - d3) * inverse;
+  const V a3 = d3 * inverse;
+  const V entropy = -(entropy_term(a1) + entropy_term(a2) + entropy_term(a3));
+  return values.largest > 0.0 ? entropy : zero + std::numeric_limits<double>::infinity();
+}
+
+struct Batch {
+  double size[kLanes];
+  double x[kLanes], y[kLanes], z[kLanes];
+  double xx[kLanes], xy[kLanes], xz[kLanes], yy[kLanes], yz[kLanes], zz[kLanes];
+
+  void set(std::size_t lane, const RunningMoments& m, double n) {
+    size[lane] = n;
+    x[lane] = m.x;
+    y[lane] = m.y;
+    z[lane] = m.z;
+    xx[lane] = m.xx;
+    xy[lane] = m.xy;
+    xz[lane] = m.xz;
+    yy[lane] = m.yy;
+    yz[lane] = m.yz;
+    zz[lane] = m.zz;
+  }
+};
+
+/// Entropy and planarity of eight neighbourhoods.
+ARRIS_SIMD_CLONES void evaluate(const Batch& b, SymmetricMatrix<double>* covariance, double* entropy, double* planarity) {
+  using simd::Double8;
+  const auto n = simd::load<Double8>(b.size);
+  const auto x = simd::load<Double8>(b.x);
+  const auto y = simd::load<Double8>(b.y);
+  const auto z = simd::load<Double8>(b.z);
+  SymmetricMatrix<Double8> c;  // n² times the covariance.
+  c.xx = n * simd::load<Double8>(b.xx) - x * x;
+  c.xy = n * simd::load<Double8>(b.xy) - x * y;
+  c.xz = n * simd::load<Double8>(b.xz) - x * z;
+  c.yy = n * simd::load<Double8>(b.yy) - y * y;
+  c.yz = n * simd::load<Double8>(b.yz) - y * z;
+  c.zz = n * simd::load<Double8>(b.zz) - z * z;
+  const Eigenvalues<Double8> values = eigenvalues_of(c);
+  const Double8 e = entropy_of(values);
+  const Double8 ratio = values.middle / (values.largest > 0.0 ? values.largest : n);
+  simd::store(entropy, e);
+  simd::store(planarity, ratio);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    covariance[lane] = {c.xx[lane], c.xy[lane], c.xz[lane], c.yy[lane], c.yz[lane], c.zz[lane]};
+  }
+}
+
+/// The running minimum over ascending k.
+struct Best {
+  double entropy = std::numeric_limits<double>::infinity();
+  ScaleChoice choice;
+
+  void offer(double e, int k, const SymmetricMatrix<double>& covariance) {
+    if (!(e < entropy - kEntropyTie)) return;
+    entropy = e;
+    choice = {k, covariance};
+  }
+};
+
+}  // namespace
+
+template <class V>
+V dimensional_entropy(const Eigenvalues<V>& values) {
+  return entropy_of(values);
+}
+template double dimensional_entropy(const Eigenvalues<double>&);
+
+ScaleChoice choose_scale(const Neighbours& neighbours, const ScaleRange& range) {
+  const int last = std::min(range.k_max, static_cast<int>(neighbours.count));
+  Best planar;
+  Best any;
+  RunningMoments moments;
+  int added = 0;
+  for (int k = range.k_min; k <= last;) {
+    Batch batch;
+    int sizes[kLanes];
+    std::size_t lanes = 0;
+    for (; lanes < kLanes && k <= last; ++lanes, k += range.k_step) {
+      for (; added < k; ++added) moments.add(neighbours.dx[added], neighbours.dy[added], neighbours.dz[added]);
+      batch.set(lanes, moments, k + (range.with_target ? 1 : 0));
+      sizes[lanes] = k;
+    }
+    for (std::size_t lane = lanes; lane < kLanes; ++lane) batch.set(lane, moments, k);
+    SymmetricMatrix<double> covariance[kLanes];
+    double entropy[kLanes];
+    double planarity[kLanes];
+    evaluate(batch, covariance, entropy, planarity);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      any.offer(entropy[lane], sizes[lane], covariance[lane]);
+      if (planarity[lane] >= range.min_planarity) planar.offer(entropy[lane], sizes[lane], covariance[lane]);
+    }
+  }
+  return planar.choice.k > 0 ? planar.choice : any.choice;
+}
+
+}  // namespace arris

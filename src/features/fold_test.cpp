@@ -1,0 +1,177 @@
+#include "features/fold_test.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "features/exact_math.h"
+
+namespace arris {
+namespace {
+
+/// Rounds to multiples of a power of two, so that sums of the rounded values are exact and need no order.
+class FixedPoint {
+ public:
+  /// Sums of up to `terms` values in [0, largest] stay exact, to as many bits as that leaves but at most `bits`.
+  FixedPoint(double largest, std::size_t terms, int bits) {
+    const int room = 51 - static_cast<int>(std::bit_width(terms));
+    magic_ = std::ldexp(1.5, 52 + std::ilogb(largest) + 1 - std::min(bits, room));
+  }
+  /// (value + magic) - magic is the rounded value.
+  double magic() const { return magic_; }
+
+ private:
+  double magic_;
+};
+
+struct Chord {
+  double x, y;    ///< One end.
+  double sx, sy;  ///< Unit direction.
+};
+
+/// Unsigned, rounded distances of all members; returns their exact sum, and counts the members strictly on either side.
+struct Sides {
+  double sum = 0;
+  std::size_t left = 0;
+  std::size_t right = 0;
+};
+
+/// Arrays are padded to full vectors with points on the chord, which add nothing.
+ARRIS_SIMD_CLONES void measure(const double* u, const double* v, std::size_t n, const Chord& chord, double magic,
+                               double on_line, double* distance, Sides& sides) {
+  using simd::Double8;
+  Double8 sum{};
+  simd::Long8 left{};
+  simd::Long8 right{};
+  for (std::size_t i = 0; i < n; i += 8) {
+    const Double8 du = simd::load<Double8>(u + i) - chord.x;
+    const Double8 dv = simd::load<Double8>(v + i) - chord.y;
+    const Double8 signed_distance = chord.sx * dv - chord.sy * du;
+    left -= signed_distance > on_line;
+    right -= signed_distance < -on_line;
+    const Double8 size = signed_distance < 0.0 ? -signed_distance : signed_distance;
+    const Double8 rounded = (size + magic) - magic;
+    simd::store(distance + i, rounded);
+    sum += rounded;  // Exact, so any grouping gives the same.
+  }
+  for (std::size_t lane = 0; lane < 8; ++lane) {
+    sides.sum += sum[lane];
+    sides.left += static_cast<std::size_t>(left[lane]);
+    sides.right += static_cast<std::size_t>(right[lane]);
+  }
+}
+
+ARRIS_SIMD_CLONES double sum_of_squares(const double* distance, std::size_t n, double mean, double magic) {
+  using simd::Double8;
+  Double8 sum{};
+  const std::size_t whole = n / 8 * 8;
+  for (std::size_t i = 0; i < whole; i += 8) {
+    const Double8 off = simd::load<Double8>(distance + i) - mean;
+    sum += (off * off + magic) - magic;
+  }
+  double total = 0.0;
+  for (std::size_t lane = 0; lane < 8; ++lane) total += sum[lane];
+  for (std::size_t i = whole; i < n; ++i) {
+    const double off = distance[i] - mean;
+    total += (off * off + magic) - magic;
+  }
+  return total;
+}
+
+void project(const PrincipalFrame& frame, FoldScratch& s) {
+  const std::size_t n = s.members.size();
+  if (s.u.size() < simd::padded(n)) {
+    for (auto* column : {&s.u, &s.v, &s.distance}) column->resize(simd::padded(n));
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const BallMember& m = s.members[i];
+    s.u[i] = m.dx * frame.e2[0] + m.dy * frame.e2[1] + m.dz * frame.e2[2];
+    s.v[i] = m.dx * frame.e3[0] + m.dy * frame.e3[1] + m.dz * frame.e3[2];
+  }
+}
+
+/// Members that can be an end of the diameter: it is at least as long as the span along u, and no member is farther out than
+/// `reach`, so an end lies at least the difference from the centre. The margin covers rounding.
+void gather_ends(FoldScratch& s, double radius) {
+  const std::size_t n = s.members.size();
+  std::size_t left = 0;
+  std::size_t right = 0;
+  double reach2 = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (s.u[i] < s.u[left]) left = i;
+    if (s.u[i] > s.u[right]) right = i;
+    reach2 = std::max(reach2, s.u[i] * s.u[i] + s.v[i] * s.v[i]);
+  }
+  // Either extreme may be one of several: the span along u is the same for all of them.
+  const double inner = std::max(0.0, s.u[right] - s.u[left] - std::sqrt(reach2) - 1e-9 * radius);
+  s.ends.clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (s.u[i] * s.u[i] + s.v[i] * s.v[i] < inner * inner) continue;
+    s.ends.push_back({s.u[i], s.v[i], s.members[i].d2, s.members[i].id});
+  }
+}
+
+void pick_top(FoldScratch& s, std::size_t count, FoldEmission& emission) {
+  const auto stronger = [&s](std::uint32_t a, std::uint32_t b) {
+    if (s.distance[a] != s.distance[b]) return s.distance[a] > s.distance[b];
+    if (s.members[a].d2 != s.members[b].d2) return s.members[a].d2 < s.members[b].d2;
+    return s.members[a].id < s.members[b].id;
+  };
+  s.top.clear();
+  for (std::uint32_t i = 0; i < s.members.size(); ++i) {
+    if (s.top.size() == count && !stronger(i, s.top.back())) continue;
+    if (s.top.size() == count) s.top.pop_back();
+    s.top.insert(std::upper_bound(s.top.begin(), s.top.end(), i, stronger), i);
+  }
+  for (const std::uint32_t i : s.top) emission.slots.push_back(s.members[i].slot);
+}
+
+}  // namespace
+
+double chord_deviation_bound(const Eigenvalues<double>& values, double n, double radius, double extent3) {
+  // Nearly equal values may be off by 1e-8 of the largest, which is at most r².
+  const double slack = 1e-7 * radius * radius;
+  const double l2 = std::max(values.middle, 0.0) + slack;
+  const double l3 = std::max(values.smallest, 0.0) + slack;
+  const double rise2 = std::min(extent3 * extent3, 2.0 * n * l3);
+  const double run2 = 4.0 * std::max(values.middle - slack, 0.0);
+  const double sine2 = run2 > rise2 ? rise2 / run2 : 1.0;
+  const double variance = l3 + (l2 - l3) * sine2;
+  return std::sqrt(variance * n / (n - 1.0)) * (1.0 + 1e-6) + 1e-6 * radius;
+}
+
+void evaluate_fold(const PrincipalFrame& frame, const FoldThresholds& thresholds, FoldScratch& s, FoldEmission& emission) {
+  emission.slots.clear();
+  const std::size_t n = s.members.size();
+  if (n < kLeastBallPoints) return;
+  project(frame, s);
+  gather_ends(s, thresholds.radius);
+  const Diameter diameter = planar_diameter(s.ends);
+  if (!(diameter.length2 > 0.0)) return;
+  const double length = std::sqrt(diameter.length2);
+  const Chord chord{diameter.a.x, diameter.a.y, (diameter.b.x - diameter.a.x) / length,
+                    (diameter.b.y - diameter.a.y) / length};
+  for (std::size_t i = n; i < simd::padded(n); ++i) {
+    s.u[i] = chord.x;
+    s.v[i] = chord.y;
+  }
+  const FixedPoint to_line(2.0 * thresholds.radius, n, 30);
+  Sides sides;
+  measure(s.u.data(), s.v.data(), simd::padded(n), chord, to_line.magic(), 1e-9 * thresholds.radius, s.distance.data(), sides);
+  const double mean = sides.sum / static_cast<double>(n);
+  const FixedPoint to_square(4.0 * thresholds.radius * thresholds.radius, n, 50);
+  const double squares = sum_of_squares(s.distance.data(), n, mean, to_square.magic());
+  const double cf1 = std::sqrt(squares / static_cast<double>(n - 1));
+  if (!(cf1 >= thresholds.cf1)) return;
+  const auto majority = static_cast<double>(std::max(sides.left, sides.right));
+  const auto minority = static_cast<double>(std::min(sides.left, sides.right));
+  // Nobody on one side: infinitely one-sided; nobody on either: 1.
+  const bool one_sided = minority > 0.0 ? majority >= thresholds.cf2 * minority : majority > 0.0 || thresholds.cf2 <= 1.0;
+  if (!one_sided) return;
+  pick_top(s, static_cast<std::size_t>(thresholds.top_m), emission);
+  emission.strength = static_cast<float>(cf1 / thresholds.cf1);
+  emission.angle_deg =
+      static_cast<float>(2.0 * kDegreesPerRadian * arc_cosine(std::min(1.0, cf1 / (kFoldLaw * thresholds.radius))));
+}
+
+}  // namespace arris

@@ -1,0 +1,48 @@
+#pragma once
+/// @file Liu et al., boundary and fold points, on the points of one tile. Pure: no I/O, no state between calls.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/lattice.h"
+#include "features/contour_record.h"
+#include "features/liu_parameters.h"
+#include "features/tile_points.h"
+
+namespace arris {
+
+/// A query whose support could not be proven to lie inside TilePoints::covered. Running it again on points that cover the
+/// ball of `reach_steps` around `position` is guaranteed to prove it.
+struct UnprovenQuery {
+  std::uint64_t id = 0;
+  LatticePoint position;
+  std::int64_t reach_steps = 0;  ///< Chebyshev reach: the box position +- reach must be covered. At most ceil(R_max) + 1.
+};
+
+struct TileContours {
+  /// Records of contour points only; at most one per id. Boundary bits concern queried points; fold votes may concern any point
+  /// in a ball, owned by this tile or not. Duplicates are expanded: every id at a contour position has its record.
+  std::vector<ContourRecord> records;
+  std::vector<UnprovenQuery> unproven;
+  std::uint64_t isolated = 0;  ///< Queried points with fewer than k_min neighbours within R_max (duplicates count).
+};
+
+/// Runs the method for every core point of the tile (or, if `queries` is given, for those indices of tile.positions only).
+/// Results of proven queries depend on the input points and the parameters only, not on tile.core, tile.covered, the order of
+/// entries or the number of threads. Runs in parallel (core/parallel.h). Memory beyond the tile: see liu_bytes_per_point.
+TileContours extract_liu(const TilePoints& tile, const Lattice& lattice, const LiuParameters& parameters);
+TileContours extract_liu(const TilePoints& tile, const Lattice& lattice, const LiuParameters& parameters,
+                         std::span<const std::uint32_t> queries);
+
+/// Bytes that extract_liu needs beyond the tile itself, per position, for predictions; and the fixed part per thread.
+constexpr double kLiuBytesPerPoint = 48.0;
+constexpr double kLiuBytesPerThread = 4.0 * 1024 * 1024;
+
+/// A halo, in data units, that proves nearly all queries where the spacing is at most `spacing`.
+double liu_halo(const LiuParameters& parameters, double spacing);
+
+/// EdgeScore in [0, 1] of a combined record.
+float liu_score(const ContourRecord& record, const LiuParameters& parameters);
+
+}  // namespace arris

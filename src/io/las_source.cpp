@@ -1,0 +1,91 @@
+#include "io/las_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/bytes.h"
+#include "io/input_file.h"
+#include "io/las_file.h"
+#include "io/read_limits.h"
+
+namespace arris::io {
+namespace {
+
+class LasSource final : public PointSource {
+ public:
+  explicit LasSource(const std::filesystem::path& path) : file_(path), las_(read_las_file(file_)) {
+    const LasHeader& header = las_.header;
+    info_.path = path;
+    info_.format = Format::kLas;
+    info_.layout = fmt::format("LAS 1.{}, point format {}, {} bytes per point", header.minor, header.point_format,
+                               header.record_bytes);
+    info_.size_bytes = file_.size_bytes();
+    info_.points = las_.points;
+    info_.scaled_integers = true;
+    info_.scale = header.scale;
+    info_.offset = header.offset;
+    info_.record_bytes = header.record_bytes;
+    info_.problems = las_.problems;
+  }
+
+  const SourceInfo& info() const override { return info_; }
+  void rewind() override { next_ = 0; }
+
+  bool read(PointBatch& batch, const ReadOptions& options) override {
+    const std::size_t count = batch_count(options.batch_points, las_.points - next_, info_.record_bytes);
+    batch.first_id = next_;
+    batch.count = count;
+    for (auto* stored : {&batch.ix, &batch.iy, &batch.iz}) stored->resize(count);
+    for (auto* world : {&batch.x, &batch.y, &batch.z}) world->clear();
+    prepare_records(batch, options.records, info_.record_bytes);
+    if (count == 0) return false;
+    const std::uint64_t begin = las_.header.offset_to_points + next_ * info_.record_bytes;
+    if (options.records) {
+      file_.read(begin, batch.records);
+      decode(batch.records.data(), 0, count, batch);
+    } else {
+      read_coordinates(begin, batch);
+    }
+    next_ += count;
+    return true;
+  }
+
+ private:
+  /// Reads in blocks that stay in the cache between the system's copy and the decoding.
+  void read_coordinates(std::uint64_t begin, PointBatch& batch) {
+    const std::size_t block_points = std::max<std::size_t>(1, kReadBlockBytes / info_.record_bytes);
+    block_.resize(std::min(block_points, batch.count) * info_.record_bytes);
+    for (std::size_t first = 0; first < batch.count; first += block_points) {
+      const std::size_t count = std::min(block_points, batch.count - first);
+      file_.read(begin + first * info_.record_bytes, std::span(block_).first(count * info_.record_bytes));
+      decode(block_.data(), first, count, batch);
+    }
+  }
+
+  void decode(const std::byte* record, std::size_t first, std::size_t count, PointBatch& batch) const {
+    const std::size_t stride = info_.record_bytes;
+    std::int32_t* ix = batch.ix.data() + first;
+    std::int32_t* iy = batch.iy.data() + first;
+    std::int32_t* iz = batch.iz.data() + first;
+    for (std::size_t i = 0; i < count; ++i, record += stride) {
+      ix[i] = load<std::int32_t>(record);
+      iy[i] = load<std::int32_t>(record + 4);
+      iz[i] = load<std::int32_t>(record + 8);
+    }
+  }
+
+  InputFile file_;
+  LasFile las_;
+  SourceInfo info_;
+  std::uint64_t next_ = 0;  ///< Next point to deliver.
+  std::vector<std::byte> block_;
+};
+
+}  // namespace
+
+std::unique_ptr<PointSource> open_las_source(const std::filesystem::path& path) {
+  return std::make_unique<LasSource>(path);
+}
+
+}  // namespace arris::io

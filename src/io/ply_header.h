@@ -1,0 +1,65 @@
+#pragma once
+/// @file The header of a PLY file (Turk 1994, and the dialects in use): elements, properties, and the lines as they were.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/input_file.h"
+#include "io/point_source.h"
+
+namespace arris::io {
+
+enum class PlyFormat : std::uint8_t { kAscii, kLittleEndian, kBigEndian };
+enum class PlyType : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64, kInt64, kUint64 };
+
+std::size_t size_bytes(PlyType type);
+constexpr bool is_integer(PlyType type) { return type != PlyType::kFloat32 && type != PlyType::kFloat64; }
+/// The name most readers know: "uchar", "float", ...
+const char* type_name(PlyType type);
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::kFloat32;  ///< Of the value, or of each item of a list.
+  bool is_list = false;
+  PlyType count_type = PlyType::kUint8;  ///< Of a list's length; always an integer type.
+
+  friend bool operator==(const PlyProperty&, const PlyProperty&) = default;
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+  std::size_t line = 0;  ///< Index of its "element" line.
+
+  bool has_list() const;
+  /// Bytes of one record if it has no list; otherwise the least bytes (empty lists). Binary formats only.
+  std::size_t least_bytes() const;
+  /// Index of a scalar property, or -1.
+  int find(std::string_view property) const;
+};
+
+struct PlyHeader {
+  PlyFormat format = PlyFormat::kAscii;
+  std::string version;             ///< "1.0"
+  std::string line_end;            ///< "\n", "\r\n" or "\r"
+  std::vector<std::string> lines;  ///< All lines, "ply" and "end_header" included, without their ends.
+  std::vector<PlyElement> elements;
+  std::size_t vertex = 0;       ///< Index of the vertex element.
+  std::uint64_t body_begin = 0;  ///< Offset in the file of the first byte behind the header.
+  std::vector<Problem> problems;
+
+  const PlyElement& vertices() const { return elements[vertex]; }
+  const char* format_name() const;
+};
+
+/// Reads and checks a header of at most 1 MiB and 65 536 properties, in linear time. Accepted: LF, CRLF and CR line ends (CR in
+/// binary files too: then the body begins right behind it), comments and obj_info anywhere, leading and trailing blanks, all 16
+/// type names and int64/uint64. Throws InputError that names the line, for anything else, for files without a vertex element with
+/// scalar x, y, z, and for property names that occur twice in one element.
+PlyHeader read_ply_header(const InputFile& file);
+
+}  // namespace arris::io

@@ -1,0 +1,156 @@
+#include "io/ply_record.h"
+
+#include <fast_float/fast_float.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "core/text.h"
+#include "io/bytes.h"
+#include "io/input_file.h"
+
+namespace arris::io {
+namespace {
+
+bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+/// Numbers begin with a digit, sign or point, or are spelled nan, inf. Anything else means that the values have gone out of step.
+bool may_be_number(std::string_view token) {
+  const char c = token[0];
+  return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == 'n' || c == 'N' || c == 'i' || c == 'I';
+}
+
+bool parse_number(std::string_view token, double& value) {
+  if (token.starts_with('+')) token.remove_prefix(1);
+  const char* end = token.data() + token.size();
+  const auto result = fast_float::from_chars(token.data(), end, value);
+  if (result.ptr == end && result.ec != std::errc::invalid_argument) return true;  // Too large or small: infinity or zero.
+  const std::size_t mark = token.find("1.#");  // Older Windows libraries print 1.#INF, -1.#IND, 1.#QNAN.
+  if (mark > 1 || (mark == 1 && token[0] != '-')) return false;
+  const bool infinite = token.substr(mark + 3).starts_with("INF");
+  value = infinite ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+  if (infinite && mark == 1) value = -value;
+  return true;
+}
+
+template <std::endian kOrder>
+double load_as_double(PlyType type, const std::byte* at) {
+  switch (type) {
+    case PlyType::kInt8: return load<std::int8_t, kOrder>(at);
+    case PlyType::kUint8: return load<std::uint8_t, kOrder>(at);
+    case PlyType::kInt16: return load<std::int16_t, kOrder>(at);
+    case PlyType::kUint16: return load<std::uint16_t, kOrder>(at);
+    case PlyType::kInt32: return load<std::int32_t, kOrder>(at);
+    case PlyType::kUint32: return load<std::uint32_t, kOrder>(at);
+    case PlyType::kFloat32: return static_cast<double>(load<float, kOrder>(at));
+    case PlyType::kFloat64: return load<double, kOrder>(at);
+    case PlyType::kInt64: return static_cast<double>(load<std::int64_t, kOrder>(at));
+    case PlyType::kUint64: break;
+  }
+  return static_cast<double>(load<std::uint64_t, kOrder>(at));
+}
+
+}  // namespace
+
+double load_ply_value(PlyFormat format, PlyType type, const std::byte* at) {
+  return format == PlyFormat::kBigEndian ? load_as_double<std::endian::big>(type, at)
+                                         : load_as_double<std::endian::little>(type, at);
+}
+
+PlyRecordWalker::PlyRecordWalker(PlyFormat format, const PlyElement& element, const std::vector<int>& wanted)
+    : format_(format), values_(wanted.size()) {
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    const auto found = std::find(wanted.begin(), wanted.end(), static_cast<int>(i));
+    steps_.push_back({element.properties[i], found == wanted.end() ? -1 : static_cast<int>(found - wanted.begin())});
+  }
+}
+
+PlyRecordWalker::Result PlyRecordWalker::walk(std::span<const std::byte> bytes, bool file_end) {
+  begin_ = end_ = 0;
+  if (format_ != PlyFormat::kAscii) return walk_binary(bytes);
+  return walk_ascii({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file_end);
+}
+
+PlyRecordWalker::Result PlyRecordWalker::bad(std::string problem) {
+  problem_ = std::move(problem);
+  return Result::kBad;
+}
+
+/// False if the text ends before a token does.
+bool PlyRecordWalker::next_token(std::string_view text, bool file_end, std::string_view& token) {
+  std::size_t at = end_;
+  while (at < text.size() && is_space(text[at])) ++at;
+  const std::size_t first = at;
+  while (at < text.size() && !is_space(text[at])) ++at;
+  if (first == at || (at == text.size() && !file_end)) return false;
+  end_ = at;
+  token = text.substr(first, at - first);
+  return true;
+}
+
+PlyRecordWalker::Result PlyRecordWalker::walk_ascii(std::string_view text, bool file_end) {
+  std::string_view token;
+  bool first = true;
+  for (const Step& step : steps_) {
+    if (!next_token(text, file_end, token)) return Result::kMore;
+    if (first) {
+      begin_ = static_cast<std::size_t>(token.data() - text.data());
+      follows_line_end_ = text.substr(0, begin_).find_first_of("\r\n") != std::string_view::npos;
+      first = false;
+    }
+    if (step.slot >= 0) {
+      if (!parse_number(token, values_[static_cast<std::size_t>(step.slot)])) {
+        const char* hint = token.find(',') != std::string_view::npos ? "; decimals must be written with a point" : "";
+        return bad(fmt::format("\"{}\" is not a number (property {}){}", printable(token, 40), printable(step.property.name, 40), hint));
+      }
+      continue;
+    }
+    if (!step.property.is_list) {
+      if (!may_be_number(token)) {
+        return bad(fmt::format("\"{}\" is not a number (property {})", printable(token, 40), printable(step.property.name, 40)));
+      }
+      continue;
+    }
+    std::uint64_t items = 0;
+    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), items);
+    if (error != std::errc{} || end != token.data() + token.size()) {
+      return bad(fmt::format("\"{}\" is not the length of a list (property {})", printable(token, 40), printable(step.property.name, 40)));
+    }
+    for (; items > 0; --items) {
+      if (!next_token(text, file_end, token)) return Result::kMore;
+      if (!may_be_number(token)) {
+        return bad(fmt::format("\"{}\" is not a number (list {})", printable(token, 40), printable(step.property.name, 40)));
+      }
+    }
+  }
+  return Result::kDone;
+}
+
+PlyRecordWalker::Result PlyRecordWalker::walk_binary(std::span<const std::byte> bytes) {
+  for (const Step& step : steps_) {
+    const PlyProperty& property = step.property;
+    const std::size_t head = size_bytes(property.is_list ? property.count_type : property.type);
+    if (bytes.size() - end_ < head) return Result::kMore;
+    const std::byte* at = bytes.data() + end_;
+    end_ += head;
+    if (!property.is_list) {
+      if (step.slot >= 0) values_[static_cast<std::size_t>(step.slot)] = load_ply_value(format_, property.type, at);
+      continue;
+    }
+    const double items = load_ply_value(format_, property.count_type, at);
+    if (items < 0.0) return bad(fmt::format("list {} has length {}", printable(property.name, 40), items));
+    const double item_bytes = items * static_cast<double>(size_bytes(property.type));
+    if (item_bytes > static_cast<double>(FileWindow::kMaxBytes)) {
+      return bad(fmt::format("list {} has length {}, more than the {} that a record may take", printable(property.name, 40), items,
+                             human_bytes(FileWindow::kMaxBytes)));
+    }
+    if (static_cast<double>(bytes.size() - end_) < item_bytes) return Result::kMore;
+    end_ += static_cast<std::size_t>(item_bytes);
+  }
+  return Result::kDone;
+}
+
+}  // namespace arris::io

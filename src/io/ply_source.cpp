@@ -1,0 +1,229 @@
+#include "io/ply_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "io/bytes.h"
+#include "io/input_file.h"
+#include "io/ply_body.h"
+#include "io/ply_header.h"
+#include "io/read_limits.h"
+
+namespace arris::io {
+namespace {
+
+SourceInfo make_info(const InputFile& file, const PlyHeader& header) {
+  SourceInfo info;
+  info.path = file.path();
+  info.format = Format::kPly;
+  info.layout = fmt::format("PLY {} {}", header.format_name(), printable(header.version, 40));
+  info.size_bytes = file.size_bytes();
+  info.points = header.vertices().count;
+  info.problems = header.problems;
+  return info;
+}
+
+void start_batch(PointBatch& batch, std::uint64_t first_id, std::size_t count) {
+  batch.first_id = first_id;
+  batch.count = count;
+  for (auto* stored : {&batch.ix, &batch.iy, &batch.iz}) stored->clear();
+  for (auto* world : {&batch.x, &batch.y, &batch.z}) world->resize(count);
+}
+
+template <typename T, std::endian kOrder>
+void decode_axis(const std::byte* at, std::size_t stride, std::size_t count, double* out) {
+  for (std::size_t i = 0; i < count; ++i, at += stride) out[i] = static_cast<double>(load<T, kOrder>(at));
+}
+
+template <std::endian kOrder>
+void decode_axis_of_type(PlyType type, const std::byte* at, std::size_t stride, std::size_t count, double* out) {
+  switch (type) {
+    case PlyType::kInt8: return decode_axis<std::int8_t, kOrder>(at, stride, count, out);
+    case PlyType::kUint8: return decode_axis<std::uint8_t, kOrder>(at, stride, count, out);
+    case PlyType::kInt16: return decode_axis<std::int16_t, kOrder>(at, stride, count, out);
+    case PlyType::kUint16: return decode_axis<std::uint16_t, kOrder>(at, stride, count, out);
+    case PlyType::kInt32: return decode_axis<std::int32_t, kOrder>(at, stride, count, out);
+    case PlyType::kUint32: return decode_axis<std::uint32_t, kOrder>(at, stride, count, out);
+    case PlyType::kFloat32: return decode_axis<float, kOrder>(at, stride, count, out);
+    case PlyType::kFloat64: return decode_axis<double, kOrder>(at, stride, count, out);
+    case PlyType::kInt64: return decode_axis<std::int64_t, kOrder>(at, stride, count, out);
+    case PlyType::kUint64: return decode_axis<std::uint64_t, kOrder>(at, stride, count, out);
+  }
+}
+
+/// Binary vertices without lists: records of fixed size, found by arithmetic.
+class PlyFixedSource final : public PointSource {
+ public:
+  PlyFixedSource(const std::filesystem::path& path, PlyHeader header)
+      : file_(path), header_(std::move(header)), info_(make_info(file_, header_)) {
+    info_.record_bytes = header_.vertices().least_bytes();
+    begin_ = find_ply_element(file_, header_, header_.vertex);
+    skip_ply_element(file_, header_, header_.vertex, begin_);  // Throws if the file is too short.
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto property = static_cast<std::size_t>(header_.vertices().find(kAxes[axis]));
+      types_[axis] = header_.vertices().properties[property].type;
+      for (std::size_t i = 0; i < property; ++i) offsets_[axis] += size_bytes(header_.vertices().properties[i].type);
+    }
+  }
+
+  const SourceInfo& info() const override { return info_; }
+  void rewind() override { next_ = 0; }
+
+  bool read(PointBatch& batch, const ReadOptions& options) override {
+    const std::size_t count = batch_count(options.batch_points, info_.points - next_, info_.record_bytes);
+    start_batch(batch, next_, count);
+    prepare_records(batch, options.records, info_.record_bytes);
+    if (count == 0) return false;
+    const std::uint64_t begin = begin_ + next_ * info_.record_bytes;
+    if (options.records) {
+      file_.read(begin, batch.records);
+      decode(batch.records.data(), 0, count, batch);
+    } else {
+      read_coordinates(begin, batch);
+    }
+    next_ += count;
+    return true;
+  }
+
+ private:
+  static constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+
+  void read_coordinates(std::uint64_t begin, PointBatch& batch) {
+    const std::size_t block_points = std::max<std::size_t>(1, kReadBlockBytes / info_.record_bytes);
+    block_.resize(std::min(block_points, batch.count) * info_.record_bytes);
+    for (std::size_t first = 0; first < batch.count; first += block_points) {
+      const std::size_t count = std::min(block_points, batch.count - first);
+      file_.read(begin + first * info_.record_bytes, std::span(block_).first(count * info_.record_bytes));
+      decode(block_.data(), first, count, batch);
+    }
+  }
+
+  void decode(const std::byte* records, std::size_t first, std::size_t count, PointBatch& batch) const {
+    const std::array<double*, 3> out{batch.x.data() + first, batch.y.data() + first, batch.z.data() + first};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::byte* at = records + offsets_[axis];
+      if (header_.format == PlyFormat::kBigEndian) {
+        decode_axis_of_type<std::endian::big>(types_[axis], at, info_.record_bytes, count, out[axis]);
+      } else {
+        decode_axis_of_type<std::endian::little>(types_[axis], at, info_.record_bytes, count, out[axis]);
+      }
+    }
+  }
+
+  InputFile file_;
+  PlyHeader header_;
+  SourceInfo info_;
+  std::uint64_t begin_ = 0;  ///< Offset in the file of the first vertex.
+  std::array<PlyType, 3> types_{};
+  std::array<std::size_t, 3> offsets_{};
+  std::uint64_t next_ = 0;
+  std::vector<std::byte> block_;
+};
+
+/// Ascii vertices, and binary ones with lists: records of any size, found by reading them.
+class PlyWalkedSource final : public PointSource {
+ public:
+  PlyWalkedSource(const std::filesystem::path& path, PlyHeader header)
+      : file_(path),
+        header_(std::move(header)),
+        info_(make_info(file_, header_)),
+        window_(file_),
+        walker_(header_.format, header_.vertices(),
+                {header_.vertices().find("x"), header_.vertices().find("y"), header_.vertices().find("z")}) {
+    begin_ = find_ply_element(file_, header_, header_.vertex);
+    check_count();
+    PlyWalkedSource::rewind();
+  }
+
+  const SourceInfo& info() const override { return info_; }
+
+  void rewind() override {
+    next_ = 0;
+    mid_line_ = false;
+    window_.seek(begin_);
+  }
+
+  bool read(PointBatch& batch, const ReadOptions& options) override {
+    const auto most = static_cast<std::size_t>(
+        std::min<std::uint64_t>(std::max<std::size_t>(1, options.batch_points), info_.points - next_));
+    start_batch(batch, next_, most);
+    batch.records.clear();
+    batch.record_begin.clear();
+    std::size_t bytes = 0;
+    std::size_t count = 0;
+    for (; count < most && (count == 0 || bytes + walker_.end() <= kBatchBytes); ++count) {
+      read_ply_record(file_, header_, header_.vertex, next_ + count, window_, walker_);
+      mid_line_ = mid_line_ || (next_ + count > 0 && !walker_.follows_line_end());
+      batch.x[count] = walker_.value(0);
+      batch.y[count] = walker_.value(1);
+      batch.z[count] = walker_.value(2);
+      if (options.records) keep_record(batch);
+      bytes += walker_.end();
+      window_.consume(walker_.end());
+    }
+    if (options.records) batch.record_begin.push_back(batch.records.size());
+    if (count < most) start_batch(batch, next_, count);
+    next_ += count;
+    if (count > 0 && next_ == info_.points) check_rest();
+    return count > 0;
+  }
+
+ private:
+  void keep_record(PointBatch& batch) const {
+    const auto record = window_.bytes().first(walker_.end()).subspan(walker_.begin());
+    batch.record_begin.push_back(batch.records.size());
+    batch.records.insert(batch.records.end(), record.begin(), record.end());
+  }
+
+  /// A count that even the shortest records could not fill is refused at once; an exact check needs the records.
+  void check_count() const {
+    const std::uint64_t left = file_.size_bytes() - begin_;
+    // A value in ascii takes a digit and a blank; the last blank may be missing.
+    const std::size_t least = header_.format == PlyFormat::kAscii ? 2 * header_.vertices().properties.size()
+                                                                  : header_.vertices().least_bytes();
+    if (info_.points <= (left + 1) / least) return;
+    throw InputError(fmt::format("{}: the header promises {} vertices, but the {} bytes behind byte {} hold at most {}; the file is cut short or "
+                                 "damaged",
+                                 file_.name(), info_.points, left, begin_, (left + 1) / least));
+  }
+
+  /// Ascii vertices that neither keep to lines nor use up the file were read out of step with the header's properties.
+  void check_rest() {
+    const bool last = header_.vertex + 1 == header_.elements.size();
+    if (header_.format != PlyFormat::kAscii || !mid_line_ || !last) return;
+    do {
+      for (const std::byte b : window_.bytes()) {
+        const char c = static_cast<char>(b);
+        if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
+        throw InputError(fmt::format("{}: values remain after vertex {} and vertices do not end with their lines; the header declares fewer "
+                                     "properties than the lines have",
+                                     file_.name(), info_.points));
+      }
+      window_.consume(window_.bytes().size());
+    } while (window_.extend());
+  }
+
+  InputFile file_;
+  PlyHeader header_;
+  SourceInfo info_;
+  FileWindow window_;
+  PlyRecordWalker walker_;
+  std::uint64_t begin_ = 0;  ///< Offset in the file of the first vertex or the white space before it.
+  std::uint64_t next_ = 0;
+  bool mid_line_ = false;  ///< A vertex began within the line of the one before.
+};
+
+}  // namespace
+
+std::unique_ptr<PointSource> open_ply_source(const std::filesystem::path& path) {
+  PlyHeader header = read_ply_header(InputFile(path));
+  if (header.format != PlyFormat::kAscii && !header.vertices().has_list()) {
+    return std::make_unique<PlyFixedSource>(path, std::move(header));
+  }
+  return std::make_unique<PlyWalkedSource>(path, std::move(header));
+}
+
+}  // namespace arris::io

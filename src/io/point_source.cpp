@@ -1,0 +1,133 @@
+#include "io/point_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "io/bytes.h"
+#include "io/input_file.h"
+#include "io/las_source.h"
+#include "io/ply_source.h"
+
+namespace arris::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a file seems to be, for the message that refuses it.
+std::string guess(std::string_view head) {
+  if (head.empty()) return "is empty";
+  if (head.starts_with("ASTM-E57")) return "is an E57 file, which this version cannot read; export it as LAS or PLY";
+  if (head.starts_with("PK\3\4") || head.starts_with("\x1f\x8b")) return "is an archive; unpack it first";
+  if (head.starts_with("# .PCD")) return "is a PCD file, which this version cannot read; export it as LAS or PLY";
+  return "is neither LAS (\"LASF\") nor PLY (\"ply\") by its first bytes; export it in one of these formats";
+}
+
+std::string lower_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension;
+}
+
+std::vector<fs::path> scans_in_folder(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::size_t compressed = 0;
+  try {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      const std::string extension = lower_extension(entry.path());
+      if (!entry.is_regular_file()) continue;
+      if (extension == ".laz") ++compressed;
+      if (extension == ".las" || extension == ".ply") found.push_back(entry.path());
+    }
+  } catch (const fs::filesystem_error& error) {
+    throw IoError(fmt::format("{}: cannot be listed: {}", printable(folder.string(), 1000), error.code().message()));
+  }
+  if (found.empty()) {
+    throw InputError(fmt::format("{}: the folder has no .las or .ply file{}", printable(folder.string(), 1000),
+                                 compressed > 0 ? "; its .laz files must be decompressed first" : ""));
+  }
+  std::sort(found.begin(), found.end(),
+            [](const fs::path& a, const fs::path& b) { return a.filename().native() < b.filename().native(); });
+  return found;
+}
+
+}  // namespace
+
+std::unique_ptr<PointSource> open_point_source(const fs::path& path) {
+  std::array<std::byte, 8> head{};
+  const InputFile file(path);
+  const std::size_t got = file.read_some(0, head);
+  const std::string_view text(reinterpret_cast<const char*>(head.data()), got);
+  if (text.starts_with("LASF")) return open_las_source(path);
+  constexpr std::string_view kBlanks = " \t\r\n";
+  if (text.starts_with("ply") && (text.size() == 3 || kBlanks.find(text[3]) != std::string_view::npos)) {
+    return open_ply_source(path);
+  }
+  throw InputError(fmt::format("{}: {}", file.name(), guess(text)));
+}
+
+std::vector<fs::path> expand_inputs(std::span<const std::string> arguments) {
+  std::vector<fs::path> paths;
+  for (const std::string& argument : arguments) {
+    std::error_code error;
+    const fs::file_status status = fs::status(argument, error);
+    if (status.type() == fs::file_type::not_found) {
+      throw InputError(fmt::format("{}: no such file or folder", printable(argument, 1000)));
+    }
+    if (error) throw IoError(fmt::format("{}: cannot be examined: {}", printable(argument, 1000), error.message()));
+    if (status.type() != fs::file_type::directory) {
+      paths.emplace_back(argument);
+      continue;
+    }
+    for (fs::path& path : scans_in_folder(argument)) paths.push_back(std::move(path));
+  }
+  return paths;
+}
+
+InputSet::InputSet(const std::vector<fs::path>& paths) {
+  if (paths.empty()) throw ConfigError("no input files were given");
+  for (const fs::path& path : paths) {
+    infos_.push_back(open_point_source(path)->info());
+    const auto sum = checked_add(points_, infos_.back().points);
+    if (!sum) throw InputError(fmt::format("{}: the inputs promise more than 2^64 points", printable(path.string(), 1000)));
+    points_ = *sum;
+  }
+}
+
+void InputSet::rewind() {
+  open_.reset();
+  current_ = 0;
+  next_ = 0;
+  first_id_ = 0;
+}
+
+bool InputSet::read(PointBatch& batch, const ReadOptions& options) {
+  for (;;) {
+    if (open_ && open_->read(batch, options)) {
+      batch.first_id += first_id_;
+      return true;
+    }
+    if (open_) first_id_ += infos_[next_ - 1].points;
+    open_.reset();
+    if (next_ == infos_.size()) {
+      batch.count = 0;
+      return false;
+    }
+    const SourceInfo& expected = infos_[next_];
+    open_ = open_point_source(expected.path);
+    if (open_->info().size_bytes != expected.size_bytes || open_->info().points != expected.points) {
+      throw InputError(fmt::format("{}: changed while it was in use ({} points, now {}); start again when it is complete",
+                                   printable(expected.path.string(), 1000), expected.points, open_->info().points));
+    }
+    current_ = next_++;
+  }
+}
+
+}  // namespace arris::io

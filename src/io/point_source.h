@@ -1,0 +1,98 @@
+#pragma once
+/// @file Streams of points from files: what every format's reader offers to the rest of arris.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace arris::io {
+
+enum class Format : std::uint8_t { kLas, kPly };
+
+/// Something wrong or unusual in a file that can still be read. `code` is a stable identifier, `text` one printable line.
+struct Problem {
+  std::string code;
+  std::string text;
+};
+
+/// What a file says of itself. Filled when the file is opened; the count is checked against the size of the file then.
+struct SourceInfo {
+  std::filesystem::path path;
+  Format format = Format::kLas;
+  std::string layout;            ///< For people: "LAS 1.4, point format 8, 94 bytes per point" / "PLY binary_little_endian 1.0".
+  std::uint64_t size_bytes = 0;  ///< Of the file.
+  std::uint64_t points = 0;      ///< Points that read() will deliver.
+  /// True if coordinates are stored as scaled integers (LAS): world = offset + scale * integer, per axis.
+  bool scaled_integers = false;
+  std::array<double, 3> scale{1.0, 1.0, 1.0};
+  std::array<double, 3> offset{0.0, 0.0, 0.0};
+  std::size_t record_bytes = 0;  ///< Size of one original record; 0 where records have no fixed size (PLY ascii or with lists).
+  std::vector<Problem> problems;  ///< Found while opening; worth a warning each.
+};
+
+/// Points as structure of arrays; capacity is reused from call to call.
+struct PointBatch {
+  std::uint64_t first_id = 0;  ///< Global id of the first point: its index over all inputs in the order given.
+  std::size_t count = 0;
+  /// Stored integers, `count` each; only if scaled_integers.
+  std::vector<std::int32_t> ix, iy, iz;
+  /// World coordinates, `count` each; only if not scaled_integers. May hold NaN and infinities. A number in a PLY ascii file is
+  /// taken with all its digits, even where its property is declared float.
+  std::vector<double> x, y, z;
+  /// Original records, only if asked for: point i occupies records[record_begin[i], record_begin[i + 1]).
+  std::vector<std::byte> records;
+  std::vector<std::size_t> record_begin;  ///< count + 1 entries, or empty.
+};
+
+struct ReadOptions {
+  bool records = false;                  ///< Deliver the original records as well as the coordinates.
+  /// Most points per batch, >= 1. Batches may be smaller: their records take about 4 MiB at most, or one longer record.
+  std::size_t batch_points = 64 * 1024;
+};
+
+/// One file as a rewindable stream. Memory is bounded by the batch and a fixed read buffer (not mapped: a file that is cut short
+/// while we read gives an InputError, not a signal). Not thread-safe; different sources are independent.
+class PointSource {
+ public:
+  virtual ~PointSource() = default;
+  virtual const SourceInfo& info() const = 0;
+  /// Starts over from the first point.
+  virtual void rewind() = 0;
+  /// Fills `batch` with the next points and returns true, or returns false (count = 0) after the last point. first_id counts
+  /// from 0 within this source. Throws InputError for damaged content, IoError if reading fails.
+  virtual bool read(PointBatch& batch, const ReadOptions& options) = 0;
+};
+
+/// Opens a file by its content ("LASF", "ply"), not by its name. Throws InputError / IoError.
+std::unique_ptr<PointSource> open_point_source(const std::filesystem::path& path);
+
+/// Expands arguments to files: a folder gives its *.las and *.ply files (any case, not recursive) in byte order of their names.
+/// Throws InputError for missing paths and folders without any scan.
+std::vector<std::filesystem::path> expand_inputs(std::span<const std::string> arguments);
+
+/// Many files as one stream with global ids. Sources are opened lazily one at a time; infos are read at construction.
+class InputSet {
+ public:
+  explicit InputSet(const std::vector<std::filesystem::path>& paths);
+  const std::vector<SourceInfo>& sources() const { return infos_; }
+  std::uint64_t points() const { return points_; }
+  void rewind();
+  /// As PointSource::read, with global ids. A batch never crosses a file: source_index() tells which one it came from.
+  bool read(PointBatch& batch, const ReadOptions& options);
+  std::size_t source_index() const { return current_; }
+
+ private:
+  std::vector<SourceInfo> infos_;
+  std::uint64_t points_ = 0;
+  std::size_t current_ = 0;     ///< Source of the last batch delivered.
+  std::size_t next_ = 0;        ///< Source to open next.
+  std::uint64_t first_id_ = 0;  ///< Global id of the first point of the open source.
+  std::unique_ptr<PointSource> open_;
+};
+
+}  // namespace arris::io

@@ -1,0 +1,57 @@
+#pragma once
+/// @file Collects the partial results of all tiles and hands them back in the order of ids, combined.
+
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "features/contour_record.h"
+
+namespace arris::merge {
+
+/// The combined result of one point; classes == 0 means that it is no contour point.
+struct PointResult {
+  float gap_deg = 0.0F;
+  float fold_strength = 0.0F;
+  float fold_angle_deg = 0.0F;
+  std::uint32_t votes = 0;
+  std::uint8_t classes = 0;
+};
+
+/// Records are appended to one file per range of ids (a bucket). A bucket is read back as a dense array into which its records are
+/// combined; combining is commutative, so nothing depends on the order in which tiles finish. Memory: one bucket at a time,
+/// kBucketPoints * sizeof(PointResult) = 20 MiB. Temporary disk: 32 bytes per record.
+class ResultSpool {
+ public:
+  static constexpr std::uint64_t kBucketPoints = 1U << 20;
+
+  /// @param points  ids are in [0, points).
+  ResultSpool(std::filesystem::path folder, std::uint64_t points);
+
+  /// Adds records in any order. Thread-safe. Throws IoError.
+  void append(std::vector<ContourRecord> records);
+
+  std::size_t buckets() const { return buckets_.size(); }
+  /// Combines a bucket into `results`, indexed by id - bucket * kBucketPoints, and removes its file. Call once per bucket, after
+  /// the last append. Throws IoError if the file is not what was written.
+  void load(std::size_t bucket, std::vector<PointResult>& results);
+
+  std::uint64_t bytes_on_disk() const { return bytes_on_disk_; }
+
+ private:
+  struct Bucket {
+    std::uint64_t records = 0;
+    std::uint64_t checksum = 0;  ///< Sum of the XXH3 of the appended runs' records: independent of their order.
+  };
+  std::filesystem::path bucket_path(std::size_t bucket) const;
+
+  std::filesystem::path folder_;
+  std::uint64_t points_;
+  std::mutex mutex_;
+  std::vector<Bucket> buckets_;
+  std::uint64_t bytes_on_disk_ = 0;
+};
+
+}  // namespace arris::merge

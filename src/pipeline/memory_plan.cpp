@@ -1,0 +1,73 @@
+#include "pipeline/memory_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/process_memory.h"
+#include "core/text.h"
+#include "features/liu_method.h"
+#include "tiling/tile_store.h"
+
+namespace arris::pipeline {
+namespace {
+
+constexpr std::uint64_t kMiB = 1024 * 1024;
+/// The survey's counts (bounded by their number of leaves), the read buffers and batches of one input, one writer, and
+/// thread stacks; measured, rounded up.
+constexpr std::uint64_t kPassBytes = 48 * kMiB;
+/// Beyond this a larger tile saves nothing: its halo is already a few percent of its core.
+constexpr std::uint64_t kLargestTilePoints = 2'000'000;
+/// Kept free: the allocator's fragments and what predictions miss.
+constexpr double kSafety = 0.92;
+
+std::uint64_t fixed_bytes(int threads, std::uint64_t spool_buffer_bytes) {
+  return resident_bytes() + kPassBytes + spool_buffer_bytes +
+         static_cast<std::uint64_t>(threads) * static_cast<std::uint64_t>(kLiuBytesPerThread);
+}
+
+std::uint64_t spool_buffer_bytes(std::uint64_t budget_bytes) {
+  return std::clamp<std::uint64_t>(budget_bytes / 32, 4 * kMiB, 64 * kMiB);
+}
+
+}  // namespace
+
+std::uint64_t tile_bytes(std::uint64_t points) {
+  const auto analyse = tiling::load_bytes(points) + static_cast<std::uint64_t>(kLiuBytesPerPoint * static_cast<double>(points));
+  return std::max(tiling::build_bytes(points), analyse);
+}
+
+std::uint64_t least_budget_bytes(std::uint64_t points, int threads) {
+  const std::uint64_t needed = fixed_bytes(threads, 4 * kMiB) + tile_bytes(points);
+  return static_cast<std::uint64_t>(static_cast<double>(needed) / kSafety) + kMiB;
+}
+
+MemoryPlan plan_memory(const MemoryRequest& request) {
+  MemoryPlan plan;
+  plan.budget_bytes = request.budget_bytes;
+  plan.spool_buffer_bytes = spool_buffer_bytes(request.budget_bytes);
+  plan.fixed_bytes = fixed_bytes(request.threads, plan.spool_buffer_bytes);
+  const auto usable = static_cast<std::uint64_t>(kSafety * static_cast<double>(request.budget_bytes));
+  if (usable < plan.fixed_bytes + tile_bytes(kLeastTilePoints)) {
+    throw BudgetError(fmt::format("--memory {} is too small: this run needs at least {}", human_bytes(request.budget_bytes),
+                                  human_bytes(least_budget_bytes(kLeastTilePoints, request.threads))));
+  }
+  plan.tiles_bytes = usable - plan.fixed_bytes;
+  plan.tile_workers = request.threads;
+  while (plan.tile_workers > 1 && tile_bytes(kLeastTilePoints) * plan.tile_workers > plan.tiles_bytes) --plan.tile_workers;
+
+  const std::uint64_t share = plan.tiles_bytes / plan.tile_workers;
+  const std::uint64_t cap =
+      request.tile_points_cap > 0 ? std::min(request.tile_points_cap, kLargestTilePoints) : kLargestTilePoints;
+  std::uint64_t low = 1;
+  std::uint64_t high = cap + 1;  // Largest number of points whose tile fits lies in [low, high).
+  while (high - low > 1) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    (tile_bytes(middle) <= share ? low : high) = middle;
+  }
+  plan.max_tile_points = low;
+  return plan;
+}
+
+}  // namespace arris::pipeline

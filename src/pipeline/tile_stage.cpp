@@ -1,0 +1,96 @@
+#include "pipeline/tile_stage.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include "core/file_descriptor.h"
+#include "core/parallel.h"
+#include "core/process_memory.h"
+#include "tiling/partition.h"
+
+namespace arris::pipeline {
+namespace {
+
+/// Progress of tiles that finish during the partition is held back until its own phase begins.
+class TileProgress {
+ public:
+  explicit TileProgress(ProgressSink& sink) : sink_(sink) {}
+  void done(std::uint64_t points) {
+    const std::lock_guard lock(mutex_);
+    if (started_) {
+      sink_.advance(points);
+    } else {
+      held_back_ += points;
+    }
+  }
+  void start(std::uint64_t total) {
+    const std::lock_guard lock(mutex_);
+    started_ = true;
+    sink_.phase("contours", total);
+    sink_.advance(held_back_);
+  }
+
+ private:
+  ProgressSink& sink_;
+  std::mutex mutex_;
+  bool started_ = false;
+  std::uint64_t held_back_ = 0;
+};
+
+}  // namespace
+
+void write_queries(const std::filesystem::path& path, const std::vector<UnprovenQuery>& queries) {
+  const FileDescriptor file = FileDescriptor::open(path, O_WRONLY | O_CREAT | O_TRUNC);
+  file.write_all(std::as_bytes(std::span(queries)));
+}
+
+std::vector<UnprovenQuery> read_queries(const std::filesystem::path& path) {
+  const FileDescriptor file = FileDescriptor::open(path, O_RDONLY);
+  std::vector<UnprovenQuery> queries(file.size_bytes() / sizeof(UnprovenQuery));
+  file.read_some(std::as_writable_bytes(std::span(queries)));
+  return queries;
+}
+
+TileStageResult run_tile_stage(io::InputSet& inputs, const JobPlan& plan, const std::filesystem::path& folder,
+                               tiling::TileStore& store, MemoryBudget& budget, merge::ResultSpool& results,
+                               ProgressSink& progress, const CancelToken& cancel) {
+  TileStageResult stage;
+  stage.unproven.assign(plan.tiles.tiles.size(), 0);
+  std::atomic<std::uint64_t> isolated{0};
+  TileProgress tile_progress(progress);
+
+  const auto analyse = [&](std::size_t tile) {
+    cancel.check();
+    const tiling::PlannedTile& planned = plan.tiles.tiles[tile];
+    const MemoryBudget::Reservation bytes = budget.reserve(tile_bytes(planned.covered_points));
+    store.build(tile);
+    TileContours contours;
+    {
+      const TilePoints points = store.load(tile);
+      contours = extract_liu(points, plan.survey.lattice, plan.liu);
+    }
+    if (!contours.unproven.empty()) {
+      write_queries(folder / fmt::format("{}.queries", tile), contours.unproven);
+      stage.unproven[tile] = contours.unproven.size();
+    }
+    isolated += contours.isolated;
+    results.append(std::move(contours.records));
+    release_free_memory();
+    tile_progress.done(planned.core_points);
+  };
+
+  BackgroundTasks workers(plan.memory.tile_workers);
+  const auto closed = [&](std::size_t tile) {
+    if (workers.failed()) workers.wait();  // Rethrows.
+    workers.run([&, tile] { analyse(tile); });
+  };
+  const tiling::PartitionResult partition = tiling::partition_points(
+      inputs, plan.survey, plan.tiles, {folder, plan.memory.spool_buffer_bytes}, closed, progress, cancel);
+  tile_progress.start(plan.survey.points());
+  workers.wait();
+  stage.isolated = isolated;
+  stage.spooled_bytes = partition.spooled_bytes;
+  return stage;
+}
+
+}  // namespace arris::pipeline

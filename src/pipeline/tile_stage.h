@@ -1,0 +1,33 @@
+#pragma once
+/// @file Partition and per-tile work: tiles are built and analysed while later points are still being routed.
+
+#include <atomic>
+#include <filesystem>
+#include <mutex>
+#include <vector>
+
+#include "core/memory_budget.h"
+#include "features/liu_method.h"
+#include "merge/result_spool.h"
+#include "pipeline/job_plan.h"
+#include "tiling/tile_store.h"
+
+namespace arris::pipeline {
+
+/// What the tile stage leaves for the stages after it.
+struct TileStageResult {
+  std::vector<std::uint64_t> unproven;  ///< Per tile: queries in "<tile>.queries" that need a wider view.
+  std::uint64_t isolated = 0;
+  std::uint64_t spooled_bytes = 0;
+};
+
+/// Concurrency: the caller's thread routes points and enqueues closed tiles; `tile_workers` threads build, load and analyse them,
+/// each holding a reservation of its predicted bytes. Spools of waiting tiles are on disk, so the queue costs no memory.
+TileStageResult run_tile_stage(io::InputSet& inputs, const JobPlan& plan, const std::filesystem::path& folder,
+                               tiling::TileStore& store, MemoryBudget& budget, merge::ResultSpool& results,
+                               ProgressSink& progress, const CancelToken& cancel);
+
+void write_queries(const std::filesystem::path& path, const std::vector<UnprovenQuery>& queries);
+std::vector<UnprovenQuery> read_queries(const std::filesystem::path& path);
+
+}  // namespace arris::pipeline

@@ -1,0 +1,107 @@
+#include "pipeline/widen_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <unordered_map>
+
+#include "core/error.h"
+#include "core/process_memory.h"
+#include "core/text.h"
+#include "features/liu_method.h"
+#include "pipeline/tile_stage.h"
+#include "tiling/query_regions.h"
+
+namespace arris::pipeline {
+namespace {
+
+/// Queries answered together; bounds the memory of their regions (27 cells of 56 bytes each at most, usually shared).
+constexpr std::size_t kGroupQueries = 20'000;
+
+class Widener {
+ public:
+  Widener(const JobPlan& plan, const tiling::TileStore& store, merge::ResultSpool& results, WidenResult& outcome)
+      : plan_(plan), store_(store), results_(results), outcome_(outcome) {}
+
+  void answer(std::span<const UnprovenQuery> queries) {
+    std::optional<TilePoints> points = collect(queries);
+    if (!points) {
+      if (queries.size() == 1) {
+        throw BudgetError(fmt::format("point {} needs more neighbours than the memory budget holds; raise --memory", queries[0].id));
+      }
+      const std::size_t half = queries.size() / 2;
+      answer(queries.first(half));
+      answer(queries.subspan(half));
+      return;
+    }
+    std::unordered_map<std::uint64_t, std::uint32_t> index_of;
+    for (const UnprovenQuery& query : queries) index_of.emplace(query.id, std::numeric_limits<std::uint32_t>::max());
+    for (std::uint32_t i = 0; i < points->ids.size(); ++i) {
+      const auto found = index_of.find(points->ids[i]);
+      if (found != index_of.end()) found->second = i;
+    }
+    std::vector<std::uint32_t> indices;
+    for (const UnprovenQuery& query : queries) indices.push_back(index_of.at(query.id));
+    TileContours contours = extract_liu(*points, plan_.survey.lattice, plan_.liu, indices);
+    if (!contours.unproven.empty()) throw IoError("internal: a query stayed unproven on complete support; please report this");
+    outcome_.isolated += contours.isolated;
+    results_.append(std::move(contours.records));
+  }
+
+ private:
+  /// The points in reach of the queries, or nothing if there are too many.
+  std::optional<TilePoints> collect(std::span<const UnprovenQuery> queries) {
+    tiling::QueryRegions regions;
+    for (const UnprovenQuery& query : queries) regions.add(query.position, query.reach_steps);
+    std::vector<LatticePoint> positions;
+    std::vector<std::uint64_t> ids;
+    for (std::size_t tile = 0; tile < plan_.tiles.tiles.size(); ++tile) {
+      if (!regions.touches(plan_.tiles.tiles[tile].core)) continue;
+      store_.load_core(tile, [&](const LatticePoint& p) { return regions.contains(p); }, positions, ids);
+      if (positions.size() > plan_.memory.max_tile_points && queries.size() > 1) return std::nullopt;
+      if (tile_bytes(positions.size()) > plan_.memory.tiles_bytes) return std::nullopt;
+    }
+    TilePoints points;
+    tiling::fold_duplicates(std::move(positions), std::move(ids), points);
+    // Complete around every query as far as the query asked for, which is what its proof needs.
+    constexpr std::int64_t kEverywhere = std::int64_t{1} << 40;
+    points.core = {{-kEverywhere, -kEverywhere, -kEverywhere}, {kEverywhere, kEverywhere, kEverywhere}};
+    points.covered = points.core;
+    return points;
+  }
+
+  const JobPlan& plan_;
+  const tiling::TileStore& store_;
+  merge::ResultSpool& results_;
+  WidenResult& outcome_;
+};
+
+}  // namespace
+
+WidenResult run_widen_stage(const JobPlan& plan, const std::vector<std::uint64_t>& unproven,
+                            const std::filesystem::path& folder, const tiling::TileStore& store,
+                            merge::ResultSpool& results, ProgressSink& progress, const CancelToken& cancel) {
+  WidenResult outcome;
+  outcome.queries = std::accumulate(unproven.begin(), unproven.end(), std::uint64_t{0});
+  if (outcome.queries == 0) return outcome;
+  progress.phase("widen", outcome.queries);
+  Widener widener(plan, store, results, outcome);
+  for (std::size_t tile = 0; tile < unproven.size(); ++tile) {
+    if (unproven[tile] == 0) continue;
+    const std::vector<UnprovenQuery> queries = read_queries(folder / fmt::format("{}.queries", tile));
+    for (std::size_t begin = 0; begin < queries.size(); begin += kGroupQueries) {
+      cancel.check();
+      const std::size_t count = std::min(kGroupQueries, queries.size() - begin);
+      widener.answer(std::span(queries).subspan(begin, count));
+      release_free_memory();
+      progress.advance(count);
+    }
+  }
+  return outcome;
+}
+
+}  // namespace arris::pipeline

@@ -1,0 +1,25 @@
+#pragma once
+/// @file Answers the queries that a tile's halo could not prove, with points from its neighbours' files.
+
+#include <cstdint>
+#include <filesystem>
+
+#include "merge/result_spool.h"
+#include "pipeline/job_plan.h"
+#include "tiling/tile_store.h"
+
+namespace arris::pipeline {
+
+struct WidenResult {
+  std::uint64_t queries = 0;
+  std::uint64_t isolated = 0;
+};
+
+/// For each tile with unproven queries: collects the points of all tiles that lie in reach of any of them, and asks again. What
+/// is collected is bounded by the largest tile the budget allows; groups of queries that need more are halved. Sequential over
+/// groups, parallel inside.
+WidenResult run_widen_stage(const JobPlan& plan, const std::vector<std::uint64_t>& unproven,
+                            const std::filesystem::path& folder, const tiling::TileStore& store,
+                            merge::ResultSpool& results, ProgressSink& progress, const CancelToken& cancel);
+
+}  // namespace arris::pipeline

@@ -1,0 +1,248 @@
+#include "synth/surface_sampler.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace arris::synth {
+
+namespace {
+
+constexpr double kJitter = 0.3;           // In cells, to either side.
+constexpr double kScanLineFactor = 2.0;   // Distance of scan lines in spacings; along a line points are 1/2 spacing apart.
+constexpr double kSparsestFactor = 3.1622776601683795;  // Spacing at the sparse end of a gradient: density 10:1.
+constexpr double kOutlierMargin = 0.1;    // Of the longest side of the scene.
+constexpr double kMostPoints = 1e15;
+
+/// Share of the full density at a place `t` in [0, 1] along the gradient: the local spacing grows linearly.
+double gradient_share(double t) {
+  const double factor = 1.0 + (kSparsestFactor - 1.0) * std::clamp(t, 0.0, 1.0);
+  return 1.0 / (factor * factor);
+}
+
+double gradient_share_at(const Box3& bounds, const Vec3& position) {
+  const double length = bounds.max.x - bounds.min.x;
+  return gradient_share(length > 0.0 ? (position.x - bounds.min.x) / length : 0.0);
+}
+
+std::uint64_t cells(double length, double pitch) {
+  const double count = std::floor(length / pitch + 0.5);
+  if (!(count < kMostPoints)) throw ConfigError("the spacing is too small for this scene; give a larger one or fewer points");
+  return count >= 1.0 ? static_cast<std::uint64_t>(count) : 1;
+}
+
+/// Number of points in a cell of a Poisson process with mean 1, from a uniform number.
+int poisson_1(double uniform) {
+  double term = 0.36787944117144233, sum = term;  // exp(-1)
+  int k = 0;
+  while (uniform >= sum && k < 16) {
+    ++k;
+    term /= k;
+    sum += term;
+  }
+  return k;
+}
+
+Vec3 on_sphere(const Face& face, double turn, double height) {
+  const double around = std::sqrt(std::max(0.0, face.radius * face.radius - height * height));
+  const SinCos angle = sin_cos_turns(turn);
+  return face.origin + around * angle.cos * face.eu + around * angle.sin * face.ev + height * face.ew;
+}
+
+/// Mean share of the density over the face, by the midpoint rule on a fixed raster.
+double mean_share(const Face& face, const Box3& bounds, Sampling sampling) {
+  if (sampling != Sampling::kGradient) return 1.0;
+  constexpr int kSteps = 64;
+  double sum = 0.0;
+  int owned = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < kSteps; ++j) {
+      const double a = (i + 0.5) / kSteps, b = (j + 0.5) / kSteps;
+      Vec3 position = face.at(a * face.size_u, b * face.size_v);
+      if (face.shape == Face::Shape::kSphere) {
+        position = on_sphere(face, a, (2.0 * b - 1.0) * face.radius);
+      } else if (face.shape == Face::Shape::kCylinder) {
+        const SinCos angle = sin_cos_turns(a);
+        position = face.origin + face.radius * angle.cos * face.eu + face.radius * angle.sin * face.ev;
+      } else if (face.shape == Face::Shape::kPlane && !face.owns(a * face.size_u, b * face.size_v)) {
+        continue;
+      }
+      sum += gradient_share_at(bounds, position);
+      ++owned;
+    }
+  }
+  return owned > 0 ? sum / owned : 1.0;
+}
+
+bool is_volume(const SceneModel& model) {
+  return !model.faces.empty() && model.faces.front().shape == Face::Shape::kVolume;
+}
+
+double weighted_measure(const SceneModel& model, Sampling sampling) {
+  const Box3 bounds = model.bounds();
+  double sum = 0.0;
+  for (const Face& face : model.faces) sum += face.measure() * mean_share(face, bounds, sampling);
+  return sum;
+}
+
+}  // namespace
+
+struct SurfaceSampler::Row {
+  std::uint64_t key = 0;
+  std::uint64_t columns = 1;
+  double v_low = 0.0, v_high = 0.0;  ///< Sphere: heights along the axis.
+  double w_low = 0.0, w_high = 0.0;  ///< Volume.
+  std::uint16_t face_number = 0;
+};
+
+double SurfaceSampler::spacing_for(const SceneModel& model, Sampling sampling, std::uint64_t points) {
+  const double per_point = weighted_measure(model, sampling) / static_cast<double>(points);
+  return is_volume(model) ? cube_root(per_point) : std::sqrt(per_point);
+}
+
+SurfaceSampler::SurfaceSampler(const SceneModel& model, const SurfaceSampling& sampling)
+    : model_(model), sampling_(sampling), bounds_(model.bounds()) {
+  const Vec3 size = bounds_.max - bounds_.min;
+  outlier_box_ = bounds_.expanded(kOutlierMargin * std::max({size.x, size.y, size.z}));
+  const double s = sampling.spacing;
+  const double weighted = weighted_measure(model, sampling.sampling);
+  expected_points_ = is_volume(model) ? weighted / (s * s * s) : weighted / (s * s);
+  if (!(expected_points_ <= kMostPoints)) {
+    throw ConfigError("the spacing is too small for this scene; give a larger one or fewer points");
+  }
+  const bool scan = sampling.sampling == Sampling::kScan;
+  for (std::size_t i = 0; i < model.faces.size(); ++i) {
+    const Face& face = model.faces[i];
+    const bool volume = face.shape == Face::Shape::kVolume;
+    const bool sphere = face.shape == Face::Shape::kSphere;
+    const double size_u = sphere ? 2.0 * std::numbers::pi * face.radius : face.size_u;
+    const double size_v = sphere ? std::numbers::pi * face.radius : face.size_v;
+    Raster raster;
+    raster.face = i;
+    raster.first_row = rows_;
+    raster.rows = cells(size_v, scan && !volume ? s * kScanLineFactor : s);
+    raster.layers = volume ? cells(face.size_w, s) : 1;
+    // Columns make up for the rounding of rows, so that narrow faces have the promised density too.
+    const double row_height = size_v / static_cast<double>(raster.rows);
+    const double layer_height = volume ? face.size_w / static_cast<double>(raster.layers) : s;
+    raster.columns = cells(size_u * (row_height / s) * (layer_height / s), s);
+    rows_ += raster.rows * raster.layers;
+    unit_points_ = std::max(unit_points_, static_cast<std::size_t>(raster.columns));
+    rasters_.push_back(raster);
+  }
+}
+
+void SurfaceSampler::make(std::uint64_t begin, std::uint64_t end, std::vector<io::FreshPoint>& out) const {
+  auto raster = std::upper_bound(rasters_.begin(), rasters_.end(), begin,
+                                 [](std::uint64_t row, const Raster& r) { return row < r.first_row; });
+  --raster;
+  for (std::uint64_t row = begin; row < end; ++row) {
+    while (row >= raster->first_row + raster->rows * raster->layers) ++raster;
+    make_row(*raster, row - raster->first_row, out);
+  }
+}
+
+void SurfaceSampler::make_row(const Raster& raster, std::uint64_t index, std::vector<io::FreshPoint>& out) const {
+  const Face& face = model_.faces[raster.face];
+  const double v_index = static_cast<double>(index % raster.rows);
+  const double layer = static_cast<double>(index / raster.rows);
+  const double rows = static_cast<double>(raster.rows), layers = static_cast<double>(raster.layers);
+  Row row;
+  row.key = derive_key(derive_key(sampling_.seed, raster.face), index);
+  row.columns = raster.columns;
+  row.face_number = static_cast<std::uint16_t>(raster.face + 1);
+  row.v_low = face.size_v * (v_index / rows);
+  row.v_high = face.size_v * ((v_index + 1.0) / rows);
+  row.w_low = face.size_w * (layer / layers);
+  row.w_high = face.size_w * ((layer + 1.0) / layers);
+  if (face.shape == Face::Shape::kSphere) {
+    row.v_low = -face.radius * sin_cos_turns(0.5 * v_index / rows).cos;
+    row.v_high = -face.radius * sin_cos_turns(0.5 * (v_index + 1.0) / rows).cos;
+    const double share = sin_cos_turns(0.5 * (v_index + 0.5) / rows).sin;
+    row.columns = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(share * static_cast<double>(raster.columns) + 0.5));
+  }
+  const bool process = sampling_.sampling == Sampling::kRandom || sampling_.sampling == Sampling::kGradient ||
+                       face.shape == Face::Shape::kVolume;
+  for (std::uint64_t column = 0; column < row.columns; ++column) {
+    const std::uint64_t key = row.key + column * 0xd1342543de82ef95ULL;  // Odd: distinct columns have distinct keys.
+    if (!process) {
+      place(face, row, column, PointRandom(mix64(key)), out);
+      continue;
+    }
+    const int points = poisson_1(PointRandom(mix64(key)).uniform());
+    for (int k = 1; k <= points; ++k) place(face, row, column, PointRandom(derive_key(key, static_cast<std::uint64_t>(k))), out);
+  }
+}
+
+void SurfaceSampler::place(const Face& face, const Row& row, std::uint64_t column, PointRandom random,
+                           std::vector<io::FreshPoint>& out) const {
+  double a = 0.5, b = 0.5;  // Place within the cell, [0, 1].
+  const bool volume = face.shape == Face::Shape::kVolume;
+  if (volume) {
+    a = random.uniform();
+    b = random.uniform();
+  } else {
+    switch (sampling_.sampling) {
+      case Sampling::kGrid: break;
+      case Sampling::kJittered:
+        a += kJitter * (2.0 * random.uniform() - 1.0);
+        b += kJitter * (2.0 * random.uniform() - 1.0);
+        break;
+      case Sampling::kRandom:
+      case Sampling::kGradient:
+        a = random.uniform();
+        b = random.uniform();
+        break;
+      case Sampling::kScan: a = PointRandom(row.key).uniform(); break;  // One phase per line.
+    }
+  }
+  const double turn = (static_cast<double>(column) + a) / static_cast<double>(row.columns);
+  const double v = row.v_low + b * (row.v_high - row.v_low);
+  Vec3 position;
+  switch (face.shape) {
+    case Face::Shape::kPlane: {
+      const double u = turn * face.size_u;
+      if (!face.owns(u, v)) return;
+      position = face.at(u, v);
+      break;
+    }
+    case Face::Shape::kCylinder: {
+      const SinCos angle = sin_cos_turns(turn);
+      position = face.origin + face.radius * angle.cos * face.eu + face.radius * angle.sin * face.ev + v * face.ew;
+      break;
+    }
+    case Face::Shape::kSphere: position = on_sphere(face, turn, v); break;
+    case Face::Shape::kVolume:
+      position = face.at(turn * face.size_u, v) + (row.w_low + random.uniform() * (row.w_high - row.w_low)) * face.ew;
+      break;
+  }
+  if (sampling_.sampling == Sampling::kGradient && random.uniform() >= gradient_share_at(bounds_, position)) return;
+  finish(face, row, position, random, out);
+}
+
+void SurfaceSampler::finish(const Face& face, const Row& row, Vec3 position, PointRandom& random,
+                            std::vector<io::FreshPoint>& out) const {
+  io::FreshPoint point;
+  const bool outlier = sampling_.outliers > 0.0 && random.uniform() < sampling_.outliers;
+  if (outlier) {
+    const Vec3 size = outlier_box_.max - outlier_box_.min;
+    position = outlier_box_.min + Vec3{random.uniform() * size.x, random.uniform() * size.y, random.uniform() * size.z};
+  } else if (sampling_.noise > 0.0) {
+    position = position + sampling_.noise * Vec3{random.normal(), random.normal(), random.normal()};
+  }
+  point.x = position.x;
+  point.y = position.y;
+  point.z = position.z;
+  point.intensity = static_cast<std::uint16_t>(65535.0 * face.material.reflectance);
+  point.classification = outlier ? std::uint8_t{7} : face.material.classification;
+  point.point_source_id = outlier ? std::uint16_t{0} : row.face_number;
+  point.red = face.material.red;
+  point.green = face.material.green;
+  point.blue = face.material.blue;
+  out.push_back(point);
+}
+
+}  // namespace arris::synth

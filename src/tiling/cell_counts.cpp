@@ -1,0 +1,244 @@
+#include "tiling/cell_counts.h"
+
+#include <openvdb/tree/Tree.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace arris::tiling {
+namespace {
+
+// Small upper nodes: with OpenVDB's usual 5-4-3 tree every far-away outlier costs 300 kB of internal nodes, here 0.6 kB.
+using Tree = openvdb::tree::Tree3<openvdb::Int32, 2, 3>::Type;
+using Leaf = Tree::LeafNodeType;
+using Cell = std::array<std::int32_t, 3>;
+
+constexpr int kLeafLog2 = 3;
+constexpr int kMaxLevel = 30;
+// Part of a cell's count that moves to the overflow map in one go; small enough that adding one can never overflow int32.
+constexpr std::int32_t kCarry = 1 << 30;
+
+openvdb::Index offset_in_leaf(std::int32_t x, std::int32_t y, std::int32_t z) {
+  return static_cast<openvdb::Index>(((x & 7) << 6) | ((y & 7) << 3) | (z & 7));
+}
+
+LatticeBox cell_box(const Cell& cell, int level) {
+  LatticeBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min[axis] = std::int64_t{cell[axis]} * (std::int64_t{1} << level);
+    box.max[axis] = box.min[axis] + (std::int64_t{1} << level);
+  }
+  return box;
+}
+
+/// Leaves met lately, found by a hash of their position: most points need no walk down the tree.
+class LeafCache {
+ public:
+  Leaf* find(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    const Entry& entry = entries_[slot(x, y, z)];
+    return entry.leaf && entry.x == x && entry.y == y && entry.z == z ? entry.leaf : nullptr;
+  }
+  void put(std::int32_t x, std::int32_t y, std::int32_t z, Leaf* leaf) { entries_[slot(x, y, z)] = {leaf, x, y, z}; }
+  void clear() { entries_.fill({}); }
+
+ private:
+  struct Entry {
+    Leaf* leaf = nullptr;
+    std::int32_t x = 0, y = 0, z = 0;
+  };
+  static std::size_t slot(std::int32_t x, std::int32_t y, std::int32_t z) {
+    const std::uint32_t hash = static_cast<std::uint32_t>(x) * 0x9E3779B1U ^ static_cast<std::uint32_t>(y) * 0x85EBCA77U ^
+                               static_cast<std::uint32_t>(z) * 0xC2B2AE3DU;
+    return hash >> 22;
+  }
+  std::array<Entry, 1024> entries_{};
+};
+
+}  // namespace
+
+struct CellCounts::Impl {
+  Impl(int first_level, std::size_t most_leaves)
+      : level(std::clamp(first_level, 0, kMaxLevel)), max_leaves(std::max<std::size_t>(most_leaves, 1)) {}
+
+  int level;
+  std::size_t max_leaves;
+  std::size_t leaves = 0;
+  std::uint64_t total = 0;
+  std::unique_ptr<Tree> tree = std::make_unique<Tree>(0);
+  std::map<Cell, std::uint64_t> overflow;  // Multiples of kCarry that are not in the tree.
+  LeafCache cache;
+
+  Leaf* probe_leaf(std::int32_t cx, std::int32_t cy, std::int32_t cz) {
+    const std::int32_t lx = cx >> kLeafLog2, ly = cy >> kLeafLog2, lz = cz >> kLeafLog2;
+    if (Leaf* leaf = cache.find(lx, ly, lz)) return leaf;
+    Leaf* leaf = tree->probeLeaf(openvdb::Coord(cx, cy, cz));
+    if (leaf) cache.put(lx, ly, lz, leaf);
+    return leaf;
+  }
+
+  Leaf* touch_leaf(std::int32_t cx, std::int32_t cy, std::int32_t cz) {
+    if (Leaf* leaf = probe_leaf(cx, cy, cz)) return leaf;
+    Leaf* leaf = tree->touchLeaf(openvdb::Coord(cx, cy, cz));
+    ++leaves;
+    cache.put(cx >> kLeafLog2, cy >> kLeafLog2, cz >> kLeafLog2, leaf);
+    return leaf;
+  }
+
+  void add_to_cell(const Cell& cell, std::uint64_t count) {
+    Leaf* leaf = touch_leaf(cell[0], cell[1], cell[2]);
+    const openvdb::Index offset = offset_in_leaf(cell[0], cell[1], cell[2]);
+    leaf->setActiveState(offset, true);
+    std::int32_t& stored = leaf->buffer().data()[offset];
+    const std::uint64_t sum = static_cast<std::uint64_t>(stored) + count;
+    const std::uint64_t carried = sum / kCarry * kCarry;
+    if (carried > 0) overflow[cell] += carried;
+    stored = static_cast<std::int32_t>(sum - carried);
+  }
+
+  std::uint64_t carried(const Cell& cell) const {
+    if (overflow.empty()) return 0;
+    const auto found = overflow.find(cell);
+    return found == overflow.end() ? 0 : found->second;
+  }
+
+  void coarsen() {
+    const std::unique_ptr<Tree> fine = std::exchange(tree, std::make_unique<Tree>(0));
+    const std::map<Cell, std::uint64_t> fine_overflow = std::exchange(overflow, {});
+    cache.clear();
+    leaves = 0;
+    ++level;
+    for (auto leaf = fine->cbeginLeaf(); leaf; ++leaf) {
+      for (auto value = leaf->cbeginValueOn(); value; ++value) {
+        const openvdb::Coord at = value.getCoord();
+        add_to_cell({at.x() >> 1, at.y() >> 1, at.z() >> 1}, static_cast<std::uint64_t>(*value));
+      }
+    }
+    for (const auto& [cell, count] : fine_overflow) add_to_cell({cell[0] >> 1, cell[1] >> 1, cell[2] >> 1}, count);
+  }
+
+  void coarsen_to_fit() {
+    while (leaves > max_leaves && level < kMaxLevel) coarsen();
+  }
+};
+
+CellCounts::CellCounts(int first_level, std::size_t max_leaves) : impl_(std::make_unique<Impl>(first_level, max_leaves)) {}
+CellCounts::CellCounts(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+CellCounts::~CellCounts() = default;
+CellCounts::CellCounts(CellCounts&&) noexcept = default;
+CellCounts& CellCounts::operator=(CellCounts&&) noexcept = default;
+
+int CellCounts::level() const { return impl_->level; }
+std::uint64_t CellCounts::total() const { return impl_->total; }
+std::size_t CellCounts::active_cells() const { return impl_->tree->activeVoxelCount(); }
+
+void CellCounts::add(std::span<const LatticePoint> points) {
+  Impl& impl = *impl_;
+  for (const LatticePoint& p : points) {
+    const int level = impl.level;
+    const std::int32_t cx = p.x >> level, cy = p.y >> level, cz = p.z >> level;
+    Leaf* leaf = impl.touch_leaf(cx, cy, cz);
+    const openvdb::Index offset = offset_in_leaf(cx, cy, cz);
+    std::int32_t& stored = leaf->buffer().data()[offset];
+    if (stored == 0) leaf->setActiveState(offset, true);
+    if (++stored == kCarry) {
+      impl.overflow[{cx, cy, cz}] += kCarry;
+      stored = 0;
+    }
+    if (impl.leaves > impl.max_leaves) impl.coarsen_to_fit();
+  }
+  impl.total += points.size();
+}
+
+void CellCounts::add(const LatticePoint& point, std::uint64_t count) {
+  if (count == 0) return;
+  const int level = impl_->level;
+  impl_->add_to_cell({point.x >> level, point.y >> level, point.z >> level}, count);
+  impl_->coarsen_to_fit();
+  impl_->total += count;
+}
+
+std::size_t CellCounts::remove(std::span<const LatticePoint> points,
+                               const std::function<void(const LatticeBox& cell)>& emptied) {
+  Impl& impl = *impl_;
+  const int level = impl.level;
+  std::size_t missing = 0;
+  for (const LatticePoint& p : points) {
+    const Cell cell{p.x >> level, p.y >> level, p.z >> level};
+    Leaf* leaf = impl.probe_leaf(cell[0], cell[1], cell[2]);
+    const openvdb::Index offset = offset_in_leaf(cell[0], cell[1], cell[2]);
+    if (!leaf || !leaf->isValueOn(offset)) {
+      ++missing;
+      continue;
+    }
+    std::int32_t& stored = leaf->buffer().data()[offset];
+    if (stored == 0) {  // Borrow: the count is a multiple of kCarry.
+      const auto found = impl.overflow.find(cell);
+      found->second -= kCarry;
+      if (found->second == 0) impl.overflow.erase(found);
+      stored = kCarry;
+    }
+    if (--stored == 0 && impl.carried(cell) == 0) {
+      leaf->setActiveState(offset, false);
+      emptied(cell_box(cell, level));
+    }
+  }
+  impl.total -= points.size() - missing;
+  return missing;
+}
+
+std::uint64_t CellCounts::count_at(const LatticePoint& position) const {
+  const int level = impl_->level;
+  const Cell cell{position.x >> level, position.y >> level, position.z >> level};
+  const Leaf* leaf = impl_->tree->probeConstLeaf(openvdb::Coord(cell[0], cell[1], cell[2]));
+  if (!leaf) return 0;
+  return static_cast<std::uint64_t>(leaf->getValue(offset_in_leaf(cell[0], cell[1], cell[2]))) + impl_->carried(cell);
+}
+
+CellCounts CellCounts::coarsened(int level) const {
+  auto copy = std::make_unique<Impl>(impl_->level, impl_->max_leaves);
+  copy->leaves = impl_->leaves;
+  copy->total = impl_->total;
+  copy->tree = std::make_unique<Tree>(*impl_->tree);
+  copy->overflow = impl_->overflow;
+  while (copy->level < std::min(level, kMaxLevel)) copy->coarsen();
+  return CellCounts(std::move(copy));
+}
+
+void CellCounts::for_each(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const {
+  // Ascending order without a list of all cells: leaves are sorted, then rows of leaves are walked plane by plane.
+  std::vector<const Leaf*> leaves;
+  leaves.reserve(impl_->leaves);
+  for (auto leaf = impl_->tree->cbeginLeaf(); leaf; ++leaf) leaves.push_back(&*leaf);
+  std::ranges::sort(leaves, [](const Leaf* a, const Leaf* b) { return a->origin() < b->origin(); });
+  const auto same = [&](std::size_t a, std::size_t b, int axes) {
+    for (int axis = 0; axis < axes; ++axis) {
+      if (leaves[a]->origin()[axis] != leaves[b]->origin()[axis]) return false;
+    }
+    return true;
+  };
+  const auto visit_column = [&](const Leaf& leaf, std::int32_t dx, std::int32_t dy) {
+    for (std::int32_t dz = 0; dz < 8; ++dz) {
+      const openvdb::Index offset = offset_in_leaf(dx, dy, dz);
+      if (!leaf.isValueOn(offset)) continue;
+      const openvdb::Coord& origin = leaf.origin();
+      const Cell cell{origin.x() + dx, origin.y() + dy, origin.z() + dz};
+      visit(cell_box(cell, impl_->level), static_cast<std::uint64_t>(leaf.getValue(offset)) + impl_->carried(cell));
+    }
+  };
+  for (std::size_t slab = 0, slab_end = 0; slab < leaves.size(); slab = slab_end) {
+    while (slab_end < leaves.size() && same(slab, slab_end, 1)) ++slab_end;
+    for (std::int32_t dx = 0; dx < 8; ++dx) {
+      for (std::size_t row = slab, row_end = slab; row < slab_end; row = row_end) {
+        while (row_end < slab_end && same(row, row_end, 2)) ++row_end;
+        for (std::int32_t dy = 0; dy < 8; ++dy) {
+          for (std::size_t leaf = row; leaf < row_end; ++leaf) visit_column(*leaves[leaf], dx, dy);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace arris::tiling

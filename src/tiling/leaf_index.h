@@ -1,0 +1,40 @@
+#pragma once
+/// @file Finds the leaf size at which leaves are well filled, and groups points by leaf.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/lattice.h"
+
+namespace arris::tiling {
+
+/// The leaves of 2^level steps a side that hold points, made in one pass: it starts with small leaves and doubles their side whenever there
+/// are more than the points can fill. Memory: about 64 bytes per leaf and 8 bytes per point (4 after grouping).
+class LeafIndex {
+ public:
+  /// @param first_level, last_level  smallest and largest leaf; the largest is kept however many leaves there are.
+  /// @param points_per_leaf          wanted average, >= 1.
+  LeafIndex(std::span<const LatticePoint> points, int first_level, int last_level, std::size_t points_per_leaf);
+
+  int level() const { return level_; }
+  std::size_t size() const { return keys_.size(); }
+  /// Lowest corner of leaf `leaf`.
+  LatticePoint origin(std::size_t leaf) const;
+  /// Fills `order` with the indices of all points, leaf by leaf, ascending within a leaf; `begin` gets size() + 1 starts.
+  void group(std::span<const LatticePoint> points, std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& begin) const;
+
+ private:
+  std::uint32_t find_or_add(const LatticePoint& key);
+  void rehash(std::size_t slots);
+  void coarsen();
+  LatticePoint key_of(const LatticePoint& p) const { return {p.x >> level_, p.y >> level_, p.z >> level_}; }
+
+  int level_;
+  std::vector<LatticePoint> keys_;     // Positions >> level_.
+  std::vector<std::uint32_t> slots_;   // Open addressing: index into keys_ + 1, 0 = free.
+};
+
+}  // namespace arris::tiling

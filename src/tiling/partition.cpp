@@ -1,0 +1,120 @@
+#include "tiling/partition.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "tiling/spool.h"
+#include "tiling/tile_router.h"
+
+namespace arris::tiling {
+namespace {
+
+constexpr const char* kChanged = "an input was changed while it was being read; run again when all files are complete";
+
+SpoolWriter::Limits spool_limits(const TilePlan& plan, const PartitionOptions& options) {
+  SpoolWriter::Limits limits;
+  limits.buffer_bytes = options.buffer_bytes;
+  for (const PlannedTile& tile : plan.tiles) limits.expected_bytes += tile.covered_points * kSpoolRecordBytes;
+  return limits;
+}
+
+}  // namespace
+
+struct Partitioner::Impl {
+  Impl(const CellCounts& counts, const TilePlan& plan, const PartitionOptions& options, std::function<void(std::size_t)> on_closed)
+      : remaining(counts.coarsened(counts.level())),
+        router(plan),
+        spool(options.folder, plan.tiles.size(), spool_limits(plan, options)),
+        open_cells(plan.tiles.size(), 0),
+        closed(std::move(on_closed)) {
+    remaining.for_each([&](const LatticeBox& cell, std::uint64_t) {
+      for (const std::uint32_t tile : touching(cell)) ++open_cells[tile];
+    });
+    untouched.resize(plan.tiles.size());
+    for (std::size_t tile = 0; tile < untouched.size(); ++tile) untouched[tile] = open_cells[tile] == 0;
+  }
+
+  const std::vector<std::uint32_t>& touching(const LatticeBox& cell) {
+    found.clear();
+    router.touching(cell, found);
+    return found;
+  }
+
+  void close(std::size_t tile) {
+    spool.close(tile);
+    closed(tile);
+  }
+
+  CellCounts remaining;                   // Points still to come, per cell.
+  TileRouter router;
+  SpoolWriter spool;
+  std::vector<std::uint64_t> open_cells;  // Per tile: cells that touch its covered box and still expect points.
+  std::vector<bool> untouched;            // Tiles that no cell touches.
+  std::function<void(std::size_t)> closed;
+  std::vector<std::uint32_t> found;
+};
+
+Partitioner::Partitioner(const CellCounts& counts, const TilePlan& plan, const PartitionOptions& options,
+                         std::function<void(std::size_t tile)> closed)
+    : impl_(std::make_unique<Impl>(counts, plan, options, std::move(closed))) {}
+Partitioner::~Partitioner() = default;
+
+void Partitioner::add(std::span<const LatticePoint> points, std::uint64_t first_id) {
+  Impl& impl = *impl_;
+  for (std::size_t begin = 0; begin < points.size();) {
+    const TileRouter::Route& route = impl.router.route(points[begin]);
+    std::size_t end = begin + 1;
+    while (end < points.size() && route.region.contains(points[end])) ++end;
+    for (const std::uint32_t tile : route.tiles) {
+      impl.spool.append(tile, points.subspan(begin, end - begin), first_id + begin);
+    }
+    begin = end;
+  }
+  // Only now may tiles be closed: all points of this batch are in their spools.
+  const std::size_t unexpected = impl.remaining.remove(points, [&](const LatticeBox& cell) {
+    for (const std::uint32_t tile : impl.touching(cell)) {
+      if (--impl.open_cells[tile] == 0) impl.close(tile);
+    }
+  });
+  if (unexpected > 0) {
+    throw InputError(fmt::format("{} of the points from number {} on were not there in the first pass: {}", unexpected, first_id,
+                                 kChanged));
+  }
+}
+
+PartitionResult Partitioner::finish() {
+  Impl& impl = *impl_;
+  if (impl.remaining.total() > 0) {
+    throw InputError(fmt::format("{} points of the first pass are missing in the second: {}", grouped(impl.remaining.total()),
+                                 kChanged));
+  }
+  for (std::size_t tile = 0; tile < impl.untouched.size(); ++tile) {
+    if (impl.untouched[tile]) impl.close(tile);
+  }
+  return {impl.spool.records(), impl.spool.records() * kSpoolRecordBytes};
+}
+
+PartitionResult partition_points(io::InputSet& inputs, const Survey& survey, const TilePlan& plan,
+                                 const PartitionOptions& options, const std::function<void(std::size_t tile)>& closed,
+                                 ProgressSink& progress, const CancelToken& cancel) {
+  Partitioner partitioner(survey.counts, plan, options, closed);
+  const LatticeMapper mapper(inputs.sources(), survey.lattice);
+  const io::ReadOptions read_options;
+  io::PointBatch batch;
+  std::vector<LatticePoint> positions;
+  std::vector<Mapped> outcome;
+  progress.phase("partition", inputs.points());
+  inputs.rewind();
+  while (inputs.read(batch, read_options)) {
+    cancel.check();
+    mapper.map(batch, inputs.source_index(), positions, outcome);
+    for_each_mapped_run(outcome, [&](std::size_t begin, std::size_t end) {
+      partitioner.add(std::span(positions).subspan(begin, end - begin), batch.first_id + begin);
+    });
+    progress.advance(batch.count);
+  }
+  return partitioner.finish();
+}
+
+}  // namespace arris::tiling

@@ -1,0 +1,51 @@
+#pragma once
+/// @file Lattice points and ids as an OpenVDB PointDataGrid in a stream, and back, without loss.
+
+#include <cstdint>
+#include <istream>
+#include <map>
+#include <memory>
+#include <ostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/lattice.h"
+
+namespace arris::tiling {
+
+/// Points as they come back from a grid: in Z-order of positions (morton.h), equal positions by ascending id.
+struct SortedPoints {
+  std::vector<LatticePoint> positions;
+  std::vector<std::uint64_t> ids;
+};
+
+/// A grid "points" with the attributes "P" and "id" (int64), whose world space is lattice steps. It is written when asked, so that
+/// the caller may drop its points first. Storage voxels are 2^v steps: v is the smallest for which a leaf of 8^3 voxels holds
+/// kPointsPerLeaf points on average. Up to v = 13 positions are 16-bit fixed point (an error below voxel / 65535 cannot leave a
+/// step); clouds that would leave such leaves half empty store float positions with v up to 18.
+///
+/// Peak memory while it is made: tile_store.h, build_bytes. Runs in parallel (core/parallel.h).
+class PointGrid {
+ public:
+  static constexpr std::size_t kPointsPerLeaf = 500;
+
+  /// Equal lengths; at most 2^32 - 2 points (ConfigError). ids below 2^63.
+  PointGrid(std::span<const LatticePoint> positions, std::span<const std::uint64_t> ids,
+            const std::map<std::string, std::string>& metadata);
+  ~PointGrid();
+  PointGrid(const PointGrid&) = delete;
+  PointGrid& operator=(const PointGrid&) = delete;
+
+  void write(std::ostream& stream) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Reads what PointGrid::write wrote. Throws std::exception of some kind for anything else; the
+/// caller verifies a checksum first.
+SortedPoints read_point_grid(std::istream& stream);
+
+}  // namespace arris::tiling

@@ -1,0 +1,62 @@
+#include "tiling/survey.h"
+
+#include <algorithm>
+
+#include "tiling/lattice_choice.h"
+#include "tiling/spacing.h"
+
+namespace arris::tiling {
+
+void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome) {
+  points_in += positions.size();
+  for_each_mapped_run(outcome, [&](std::size_t begin, std::size_t end) {
+    const auto run = positions.subspan(begin, end - begin);
+    counts.add(run);
+    LatticePoint low = run.front(), high = run.front();
+    for (const LatticePoint& p : run) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    bounds.include(low);
+    bounds.include(high);
+  });
+  for (const Mapped mapped : outcome) {
+    dropped_nonfinite += mapped == Mapped::kNonFinite;
+    dropped_out_of_range += mapped == Mapped::kOutOfRange;
+  }
+}
+
+void Survey::finish() { spacing = lattice.step * estimate_spacing(counts, bounds).steps; }
+
+Survey survey_inputs(io::InputSet& inputs, const SurveyOptions& options, ProgressSink& progress, const CancelToken& cancel) {
+  const io::ReadOptions read_options;
+  io::PointBatch batch;
+  LatticeChoice choice(inputs.sources(), options.lattice_step);
+  if (choice.needs_points()) {
+    progress.phase("bounds", inputs.points());
+    inputs.rewind();
+    while (inputs.read(batch, read_options)) {
+      cancel.check();
+      choice.add(batch, inputs.source_index());
+      progress.advance(batch.count);
+    }
+  }
+
+  Survey survey;
+  survey.lattice = choice.lattice();
+  const LatticeMapper mapper(inputs.sources(), survey.lattice);
+  std::vector<LatticePoint> positions;
+  std::vector<Mapped> outcome;
+  progress.phase("survey", inputs.points());
+  inputs.rewind();
+  while (inputs.read(batch, read_options)) {
+    cancel.check();
+    mapper.map(batch, inputs.source_index(), positions, outcome);
+    survey.add(positions, outcome);
+    progress.advance(batch.count);
+  }
+  survey.finish();
+  return survey;
+}
+
+}  // namespace arris::tiling

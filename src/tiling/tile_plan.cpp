@@ -1,0 +1,157 @@
+#include "tiling/tile_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "core/error.h"
+#include "tiling/box_counts.h"
+#include "tiling/spacing.h"
+
+namespace arris::tiling {
+namespace {
+
+std::vector<PlanCell> list_cells(const Survey& survey) {
+  const CellCounts& counts = survey.counts;
+  const int level = counts.level();
+  const SpacingEstimate typical = estimate_spacing(counts, survey.bounds);
+  // Cells too small to show a density are judged by the larger cells around them.
+  std::optional<CellCounts> coarse;
+  if (typical.level > level) coarse = counts.coarsened(typical.level);
+  std::vector<PlanCell> cells;
+  cells.reserve(counts.active_cells());
+  counts.for_each([&](const LatticeBox& box, std::uint64_t count) {
+    const LatticePoint corner{static_cast<std::int32_t>(box.min[0]), static_cast<std::int32_t>(box.min[1]),
+                              static_cast<std::int32_t>(box.min[2])};
+    double spacing = typical.steps;
+    if (typical.level >= 0) spacing = cell_spacing_steps(typical.level, coarse ? coarse->count_at(corner) : count);
+    cells.push_back({corner.x >> level, corner.y >> level, corner.z >> level, static_cast<float>(spacing), count});
+  });
+  return cells;
+}
+
+class Planner {
+ public:
+  Planner(const Survey& survey, const PlanRequest& request)
+      : request_(request),
+        step_(survey.lattice.step),
+        level_(survey.counts.level()),
+        cells_(list_cells(survey)),
+        counts_(cells_, level_) {}
+
+  TilePlan run(std::uint64_t points) {
+    // In cells, the whole lattice: [-2^31, 2^31) >> level.
+    CellBox all;
+    for (int axis = 0; axis < 3; ++axis) {
+      all.min[axis] = -(std::int64_t{1} << 31 >> level_);
+      all.max[axis] = std::int64_t{1} << 31 >> level_;
+    }
+    if (!cells_.empty()) split(cells_, all);
+    std::uint64_t covered = 0;
+    for (const PlannedTile& tile : plan_.tiles) {
+      covered += tile.covered_points;
+      plan_.largest_covered_points = std::max(plan_.largest_covered_points, tile.covered_points);
+    }
+    if (points > 0) plan_.duplication = static_cast<double>(covered) / static_cast<double>(points);
+    return std::move(plan_);
+  }
+
+ private:
+  using CellBox = LatticeBox;  // Counted in cells, not in steps.
+
+  static CellBox occupied_part(std::span<const PlanCell> cells) {
+    CellBox box;
+    for (const PlanCell& cell : cells) box.include(LatticePoint{cell.x, cell.y, cell.z});
+    return box;
+  }
+
+  void split(std::span<PlanCell> cells, CellBox box) {
+    const CellBox occupied = occupied_part(cells);
+    const PlannedTile tile = make_tile(cells, occupied);
+    if (tile.covered_points <= request_.max_points || cells.size() == 1) {
+      plan_.tiles.push_back(tile);
+      return;
+    }
+    int axis = 0;
+    for (int other = 1; other < 3; ++other) {
+      if (occupied.max[other] - occupied.min[other] > occupied.max[axis] - occupied.min[axis]) axis = other;
+    }
+    for (;;) {
+      const std::int64_t middle = box.min[axis] + (box.max[axis] - box.min[axis]) / 2;
+      if (occupied.max[axis] <= middle) {
+        box.max[axis] = middle;
+      } else if (occupied.min[axis] >= middle) {
+        box.min[axis] = middle;
+      } else {
+        split_at(cells, box, axis, middle);
+        return;
+      }
+    }
+  }
+
+  void split_at(std::span<PlanCell> cells, const CellBox& box, int axis, std::int64_t middle) {
+    const auto upper_cells = std::ranges::partition(cells, [&](const PlanCell& cell) { return cell[axis] < middle; });
+    const auto lower_count = static_cast<std::size_t>(upper_cells.begin() - cells.begin());
+    CellBox lower = box, upper = box;
+    lower.max[axis] = middle;
+    upper.min[axis] = middle;
+    split(cells.first(lower_count), lower);
+    split(cells.subspan(lower_count), upper);
+  }
+
+  PlannedTile make_tile(std::span<const PlanCell> cells, const CellBox& occupied) {
+    PlannedTile tile;
+    for (int axis = 0; axis < 3; ++axis) {
+      tile.core.min[axis] = occupied.min[axis] * (std::int64_t{1} << level_);
+      tile.core.max[axis] = occupied.max[axis] * (std::int64_t{1} << level_);
+    }
+    for (const PlanCell& cell : cells) tile.core_points += cell.count;
+    tile.covered = tile.core.expanded(halo_steps(cells, tile.core_points));
+    tile.covered_points = counts_.touching(tile.covered);
+    return tile;
+  }
+
+  std::int64_t halo_steps(std::span<const PlanCell> cells, std::uint64_t points) {
+    spacings_.clear();
+    for (const PlanCell& cell : cells) spacings_.emplace_back(cell.spacing_steps, cell.count);
+    // Selection by weight: the part that holds the quantile is halved until one value is left.
+    auto target = static_cast<std::uint64_t>(std::ceil(kHaloQuantile * static_cast<double>(points)));
+    auto first = spacings_.begin(), last = spacings_.end();
+    while (last - first > 1) {
+      const auto middle = first + (last - first) / 2;
+      std::nth_element(first, middle, last);
+      std::uint64_t below = 0;
+      for (auto it = first; it != middle; ++it) below += it->second;
+      if (below >= target) {
+        last = middle;
+      } else {
+        target -= below;
+        first = middle;
+      }
+    }
+    const double wanted = std::min(request_.halo(step_ * static_cast<double>(first->first)), request_.max_radius);
+    constexpr double kWidest = 4294967296.0;  // Wider than the lattice.
+    const double steps = std::ceil(std::min(wanted / step_, kWidest));
+    return steps >= 1.0 ? static_cast<std::int64_t>(steps) : 1;
+  }
+
+  const PlanRequest& request_;
+  double step_;
+  int level_;
+  std::vector<PlanCell> cells_;
+  BoxCounts counts_;
+  std::vector<std::pair<float, std::uint64_t>> spacings_;
+  TilePlan plan_;
+};
+
+}  // namespace
+
+TilePlan plan_tiles(const Survey& survey, const PlanRequest& request) {
+  if (request.max_points == 0) throw ConfigError("a tile must be allowed at least one point");
+  if (!request.halo || !(request.max_radius > 0.0)) throw ConfigError("the plan needs a halo and a positive maximum radius");
+  return Planner(survey, request).run(survey.counts.total());
+}
+
+}  // namespace arris::tiling

@@ -1,0 +1,55 @@
+#include "core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+namespace arris {
+namespace {
+
+TEST(ParallelForChunks, EveryIndex_IsVisitedOnceInFixedChunks) {
+  for (const std::size_t count : {0U, 1U, 7U, 8U, 1000U}) {
+    std::vector<std::atomic<int>> visits(count);
+    parallel_for_chunks(count, 8, [&](std::size_t begin, std::size_t end) {
+      EXPECT_EQ(begin % 8, 0U);
+      EXPECT_LE(end, count);
+      for (std::size_t i = begin; i < end; ++i) ++visits[i];
+    });
+    for (const auto& n : visits) EXPECT_EQ(n.load(), 1);
+  }
+}
+
+TEST(ParallelForChunks, ThrowingBody_RethrowsInTheCaller) {
+  EXPECT_THROW(parallel_for_chunks(100, 1, [](std::size_t begin, std::size_t) {
+                 if (begin == 57) throw std::runtime_error("57");
+               }),
+               std::runtime_error);
+}
+
+TEST(BackgroundTasks, AllTasks_AreDoneAfterWait) {
+  BackgroundTasks tasks(3);
+  std::atomic<int> done{0};
+  for (int i = 0; i < 100; ++i) {
+    tasks.run([&] {
+      parallel_for_chunks(10, 1, [&](std::size_t, std::size_t) { ++done; });
+    });
+  }
+  tasks.wait();
+  EXPECT_EQ(done.load(), 1000);
+}
+
+TEST(BackgroundTasks, FailingTask_IsReportedAndTheRestDropped) {
+  BackgroundTasks tasks(1);
+  std::atomic<int> after{0};
+  tasks.run([] { throw std::runtime_error("first"); });
+  while (!tasks.failed()) {
+  }
+  for (int i = 0; i < 10; ++i) tasks.run([&] { ++after; });
+  EXPECT_THROW(tasks.wait(), std::runtime_error);
+  EXPECT_EQ(after.load(), 0);
+}
+
+}  // namespace
+}  // namespace arris

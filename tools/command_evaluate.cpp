@@ -1,0 +1,120 @@
+/// @file arris evaluate.
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "commands.h"
+#include "common_options.h"
+#include "core/columns.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "core/units.h"
+#include "evaluate/contour_evaluation.h"
+#include "evaluate/evaluation_text.h"
+#include "io/attribute_reader.h"
+#include "io/point_source.h"
+
+namespace arris::tools {
+namespace {
+
+struct EvaluateOptions {
+  std::string prediction;
+  std::string truth;
+  std::string input;
+  std::string edges = "all";
+  std::string classes = "all";
+  std::string spacing, noise;
+  bool forgive = false;
+  bool json = false;
+};
+
+double world(const io::PointBatch& batch, const io::SourceInfo& info, int axis, std::size_t i) {
+  if (!info.scaled_integers) return (axis == 0 ? batch.x : axis == 1 ? batch.y : batch.z)[i];
+  const std::int32_t stored = (axis == 0 ? batch.ix : axis == 1 ? batch.iy : batch.iz)[i];
+  return static_cast<double>(stored) * info.scale[axis] + info.offset[axis];
+}
+
+std::uint8_t parse_classes(const std::string& text) {
+  if (text == "all") return 0xff;
+  if (text == "boundary") return kBoundary | kWeakBoundary;
+  if (text == "strong-boundary") return kBoundary;
+  return kFold;
+}
+
+std::vector<evaluate::PredictedPoint> read_predictions(const std::string& path, bool& has_scores) {
+  const std::unique_ptr<io::PointSource> source = io::open_point_source(path);
+  io::AttributeReader attributes(path, {"EdgeClass", "EdgeScore"});
+  has_scores = attributes.has(1);
+  std::vector<evaluate::PredictedPoint> points;
+  io::PointBatch batch;
+  io::ReadOptions options;
+  options.records = true;
+  std::vector<double> classes;
+  std::vector<double> scores;
+  while (source->read(batch, options)) {
+    if (attributes.has(0)) attributes.read(batch, 0, classes);
+    if (attributes.has(1)) attributes.read(batch, 1, scores);
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      evaluate::PredictedPoint p;
+      p.x = world(batch, source->info(), 0, i);
+      p.y = world(batch, source->info(), 1, i);
+      p.z = world(batch, source->info(), 2, i);
+      if (attributes.has(0)) p.classes = static_cast<std::uint8_t>(classes[i]);
+      if (attributes.has(1)) p.score = static_cast<float>(scores[i]);
+      if (p.classes != 0) points.push_back(p);  // Points that --keep-all carried along are no detections.
+    }
+  }
+  return points;
+}
+
+void add_input(const std::string& path, evaluate::InputCoverage& coverage) {
+  io::InputSet inputs(io::expand_inputs(std::vector<std::string>{path}));
+  io::PointBatch batch;
+  std::vector<evaluate::Vec3> points;
+  while (inputs.read(batch, {})) {
+    const io::SourceInfo& info = inputs.sources()[inputs.source_index()];
+    points.clear();
+    for (std::size_t i = 0; i < batch.count; ++i) points.push_back({world(batch, info, 0, i), world(batch, info, 1, i), world(batch, info, 2, i)});
+    coverage.add(points);
+  }
+}
+
+int run_evaluate(const EvaluateOptions& o) {
+  const evaluate::Truth truth = evaluate::read_truth_csv(std::filesystem::path(o.truth));
+  evaluate::EvaluationOptions options;
+  options.kinds = evaluate::parse_kinds(o.edges);
+  options.class_mask = parse_classes(o.classes);
+  options.forgive_other_kinds = o.forgive;
+  if (!o.spacing.empty()) options.spacing = parse_length(o.spacing);
+  if (!o.noise.empty()) options.noise = parse_length(o.noise);
+  const std::vector<evaluate::PredictedPoint> points = read_predictions(o.prediction, options.scores);
+  std::optional<evaluate::InputCoverage> coverage;
+  if (!o.input.empty()) {
+    coverage.emplace(truth, options);
+    add_input(o.input, *coverage);
+  }
+  const evaluate::ContourEvaluation result = evaluate::evaluate_contours(points, truth, options, coverage ? &*coverage : nullptr);
+  write_text("-", o.json ? evaluate::to_json(result) : evaluate::to_table(result), false);
+  return 0;
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, Session& session) {
+  auto o = std::make_shared<EvaluateOptions>();
+  CLI::App* verb = app.add_subcommand("evaluate", "Judge contour points against a scene's truth");
+  verb->add_option("prediction", o->prediction, "Contour points (output of extract), or any cloud")->required();
+  verb->add_option("--truth", o->truth, "Truth of the scene (CSV of synth)")->required();
+  verb->add_option("--input", o->input, "The scan itself: prints the recall that a perfect detector could reach on it");
+  verb->add_option("--edges", o->edges, "Truth that counts: all, folds, boundaries, or kinds joined by commas")->capture_default_str();
+  verb->add_option("--classes", o->classes, "Predictions that count")
+      ->check(CLI::IsMember({"all", "fold", "boundary", "strong-boundary"}))
+      ->capture_default_str();
+  verb->add_option("--spacing", o->spacing, "Point spacing (length; default: the truth's)");
+  verb->add_option("--noise", o->noise, "Noise (length; default: the truth's)");
+  verb->add_flag("--forgive-other-kinds", o->forgive, "Predictions near truth that does not count are left out instead of called false");
+  verb->add_flag("--json", o->json, "As JSON");
+  verb->callback([o, &session] { session.run = [o] { return run_evaluate(*o); }; });
+}
+
+}  // namespace arris::tools

@@ -1,0 +1,122 @@
+/// @file arris extract and arris plan.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "core/text.h"
+#include "job_options.h"
+#include "pipeline/extract.h"
+
+namespace arris::tools {
+namespace {
+
+struct ExtractOptions {
+  JobOptions job;
+  std::vector<std::string> outputs;
+  std::string report;
+  bool overwrite = false;
+  bool keep_all = false;
+  bool json = false;
+};
+
+std::string percent(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? "0 %" : fmt::format("{:.2f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+std::string describe_choices(const pipeline::ExtractReport& r, const std::string& memory_why) {
+  const std::string ball = r.parameters.radius > 0.0 ? fmt::format("{:.6g}", r.parameters.radius)
+                                                     : fmt::format("{:g} local spacings", r.parameters.radius_factor);
+  return fmt::format(
+      "spacing about {:.4g}, ball radius {}, search limit {:.4g}; lattice step {:g}\n"
+      "memory {} ({}), {} threads; {} tiles of at most {} points, halo {:.3g} to {:.3g}",
+      r.spacing, ball, r.parameters.max_radius, r.lattice.step, human_bytes(r.memory_budget_bytes), memory_why, r.threads,
+      grouped(r.tiles), grouped(r.tile_points_limit), r.least_halo, r.widest_halo);
+}
+
+std::string describe_result(const pipeline::ExtractReport& r) {
+  double seconds = 0.0;
+  for (const auto& [phase, s] : r.seconds) seconds += s;
+  std::string text = fmt::format("{} points in, {} out ({}): {} boundary, {} weak boundary, {} fold\n", grouped(r.points_in),
+                                 grouped(r.points_out), percent(r.points_out, r.points_in), grouped(r.boundary),
+                                 grouped(r.weak_boundary), grouped(r.fold));
+  text += fmt::format("{:.1f} s, {:.1f} CPU s, peak memory {} of {}", seconds, r.cpu_seconds, human_bytes(r.peak_resident_bytes),
+                      human_bytes(r.memory_budget_bytes));
+  for (const std::string& output : r.outputs) text += "\nwrote " + printable(output);
+  return text;
+}
+
+int run_extract(ExtractOptions& o, const CLI::App& verb, Session& session) {
+  pipeline::ExtractRequest request = to_request(o.job, verb);
+  request.outputs.assign(o.outputs.begin(), o.outputs.end());
+  request.overwrite = o.overwrite;
+  request.keep_all = o.keep_all;
+  request.hash_inputs = !o.report.empty();
+  ProgressDisplay display(o.job.display.mode(), o.job.display.verbosity());
+  const pipeline::ExtractReport report = pipeline::extract(request, display, session.cancel);
+  display.finish();
+  display.note(describe_choices(report, o.job.memory_why));
+  display.note(describe_result(report));
+  if (!o.report.empty()) write_text(o.report, to_json(report).dump(2) + "\n", o.overwrite);
+  return 0;
+}
+
+/// Points per second and thread of the whole job, for the time that a plan states; see bench/README.md.
+constexpr double kPlanPointsPerThreadSecond = 400e3;
+
+std::string describe_plan(const pipeline::ExtractReport& r, const std::string& memory_why) {
+  const double seconds = static_cast<double>(r.points_in) / (kPlanPointsPerThreadSecond * r.threads);
+  std::string text;
+  for (const pipeline::InputReport& input : r.inputs) {
+    text += fmt::format("{}: {} points, {}\n", printable(input.path), grouped(input.points), input.layout);
+  }
+  text += fmt::format("points            {}\n", grouped(r.points_in));
+  text += fmt::format("spacing           about {:.4g}\n", r.spacing);
+  text += fmt::format("search limit      {:.4g}\n", r.parameters.max_radius);
+  text += fmt::format("tiles             {} of at most {} points (limit {}), {} in flight\n", grouped(r.tiles),
+                      grouped(r.largest_tile_points), grouped(r.tile_points_limit), r.tile_workers);
+  text += fmt::format("halo              {:.4g} to {:.4g}; {:.2f} copies of each point\n", r.least_halo, r.widest_halo, r.duplication);
+  text += fmt::format("peak memory       {} predicted of {} ({})\n", human_bytes(r.predicted_peak_bytes),
+                      human_bytes(r.memory_budget_bytes), memory_why);
+  text += fmt::format("temporary files   {} predicted\n", human_bytes(r.predicted_temp_bytes));
+  text += fmt::format("time              about {:.0f} s on {} threads (rough)\n", seconds, r.threads);
+  return text;
+}
+
+int run_plan(ExtractOptions& o, const CLI::App& verb, Session& session) {
+  const pipeline::ExtractRequest request = to_request(o.job, verb);
+  ProgressDisplay display(o.job.display.mode(), o.job.display.verbosity());
+  const pipeline::ExtractReport report = pipeline::plan_only(request, display, session.cancel);
+  display.finish();
+  write_text("-", o.json ? to_json(report).dump(2) + "\n" : describe_plan(report, o.job.memory_why), false);
+  return 0;
+}
+
+}  // namespace
+
+void add_extract(CLI::App& app, Session& session) {
+  auto options = std::make_shared<ExtractOptions>();
+  CLI::App* verb = app.add_subcommand("extract", "Contour points: boundaries and folds");
+  add_job_options(*verb, options->job);
+  verb->add_option("-o,--output", options->outputs, "Output, .las or .ply; may be given several times")->required()->take_all();
+  verb->add_option("--report", options->report, "Write what was done as JSON");
+  verb->add_flag("--overwrite", options->overwrite, "Replace existing outputs");
+  verb->add_flag("--keep-all", options->keep_all, "Write every point, with EdgeClass 0 where it is no contour point");
+  verb->callback([options, verb, &session] {
+    session.run = [options, verb, &session] { return run_extract(*options, *verb, session); };
+  });
+}
+
+void add_plan(CLI::App& app, Session& session) {
+  auto options = std::make_shared<ExtractOptions>();
+  CLI::App* verb = app.add_subcommand("plan", "What extract would do: tiles, memory, disk; touches nothing");
+  add_job_options(*verb, options->job);
+  verb->add_flag("--json", options->json, "As JSON");
+  verb->callback([options, verb, &session] {
+    session.run = [options, verb, &session] { return run_plan(*options, *verb, session); };
+  });
+}
+
+}  // namespace arris::tools

@@ -1,0 +1,41 @@
+#pragma once
+/// @file Options of the verbs that run or plan a job.
+
+#include <string>
+#include <vector>
+
+#include "common_options.h"
+#include "pipeline/extract.h"
+
+namespace CLI {
+class App;
+}
+
+namespace arris::tools {
+
+/// As typed; to_request() turns it into a checked request.
+struct JobOptions {
+  std::vector<std::string> inputs;
+  std::string memory;
+  int threads = 0;
+  std::string temp_dir;
+  std::string max_temp;
+  std::string tile_points = "none";
+  std::string method = "liu";
+  std::string lattice;
+  LiuParameters liu;
+  std::string span = "bracket";
+  std::string emit = "emit";
+  std::string radius, cf1, far_distance, spacing, max_radius, noise;  // Lengths with units.
+  bool literal = false;
+  bool neighbours_only = false;
+  bool no_boundary = false;
+  bool no_fold = false;
+  DisplayOptions display;
+  std::string memory_why;
+};
+
+void add_job_options(CLI::App& verb, JobOptions& options);
+pipeline::ExtractRequest to_request(JobOptions& options, const CLI::App& verb);
+
+}  // namespace arris::tools
