@@ -63,7 +63,7 @@ void add_job_options(CLI::App& verb, JobOptions& o) {
   verb.add_option("--max-temp", o.max_temp, "Bound on temporary files: 100GiB, 50% of what is free");
   verb.add_option("--tile-points", o.tile_points, "For tests and tuning: most points per tile, or none")->capture_default_str();
   verb.add_option("--lattice", o.lattice, "Step of the analysis lattice (length; default: the LAS scale, else 0.0001)");
-  verb.set_config("--config", "", "Read options from a TOML or INI file");
+  verb.add_option("--config", "Read options from a TOML or INI file; those on the command line win");  // See config_file.h.
   add_liu_options(verb, o);
   add_display_options(verb, o.display);
 }

@@ -1,9 +1,11 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
 
 #include "commands.h"
+#include "config_file.h"
 #include "core/error.h"
 #include "core/process_memory.h"
 #include "core/text.h"
@@ -38,7 +40,9 @@ int main(int argc, char** argv) {
   arris::tools::add_synth(app, session);
   arris::tools::add_evaluate(app, session);
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> arguments = arris::tools::expand_config({argv + 1, argv + argc});
+    std::reverse(arguments.begin(), arguments.end());  // As CLI11 takes them.
+    app.parse(std::move(arguments));
     return session.run();
   } catch (const CLI::Success& success) {
     return app.exit(success);  // --help and --version.

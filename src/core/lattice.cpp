@@ -20,6 +20,16 @@ void LatticeBox::include(const LatticeBox& box) {
   }
 }
 
+LatticeBox LatticeBox::unlimited_beyond(const LatticeBox& bounds) const {
+  constexpr std::int64_t kUnlimited = std::int64_t{1} << 40;
+  LatticeBox box = *this;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.min[axis] <= bounds.min[axis]) box.min[axis] = -kUnlimited;
+    if (box.max[axis] >= bounds.max[axis]) box.max[axis] = kUnlimited;
+  }
+  return box;
+}
+
 std::int64_t LatticeBox::depth(const LatticePoint& p) const {
   if (!contains(p)) return 0;
   std::int64_t depth = max[0] - p.x;

@@ -53,6 +53,8 @@ struct LatticeBox {
     }
     return box;
   }
+  /// The same box, but unlimited on the sides on which it reaches the border of `bounds`: what lies beyond is known to be empty.
+  LatticeBox unlimited_beyond(const LatticeBox& bounds) const;
   /// Grows the box so that it contains p (an empty default box becomes the one point).
   void include(const LatticePoint& p);
   void include(const LatticeBox& box);

@@ -35,8 +35,8 @@ struct Box3 {
   }
 };
 
-/// Items 0 .. count-1, known by their boxes only. Build O(n log² n), about 30 bytes per item. Immutable: safe to search from several
-/// threads.
+/// Items 0 .. count-1, known by their boxes only. Build O(n log n), about 30 bytes per item. Immutable: safe to search
+/// from several threads.
 class BoxTree {
  public:
   BoxTree() = default;

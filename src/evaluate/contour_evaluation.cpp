@@ -28,7 +28,8 @@ struct Detections {
   std::vector<double> to_others;  ///< To the other edges; infinite unless forgiven kinds are asked for.
 };
 
-Detections select(std::span<const PredictedPoint> predictions, const EvaluationOptions& options, ContourEvaluation& result) {
+Detections select(std::span<const PredictedPoint> predictions, const EvaluationOptions& options,
+                  ContourEvaluation& result) {
   Detections detections;
   for (const PredictedPoint& p : predictions) {
     if ((p.classes & options.class_mask) == 0) {
@@ -38,7 +39,8 @@ Detections select(std::span<const PredictedPoint> predictions, const EvaluationO
     } else {
       detections.positions.push_back({p.x, p.y, p.z});
       // A score that is not a number ranks last.
-      if (options.scores) detections.scores.push_back(std::isnan(p.score) ? -std::numeric_limits<float>::infinity() : p.score);
+      if (options.scores)
+        detections.scores.push_back(std::isnan(p.score) ? -std::numeric_limits<float>::infinity() : p.score);
     }
   }
   if (detections.positions.size() > std::numeric_limits<std::uint32_t>::max()) {
@@ -101,8 +103,8 @@ void judge_detections(const Detections& detections, double limit, ToleranceResul
 }
 
 /// Uncovered runs of the samples [begin, end) of one edge. On a closed edge the run over the seam is one.
-void count_gaps(const std::vector<double>& distances, std::size_t begin, std::size_t end, bool closed, double piece_length,
-                double limit, ToleranceResult& result) {
+void count_gaps(const std::vector<double>& distances, std::size_t begin, std::size_t end, bool closed,
+                double piece_length, double limit, ToleranceResult& result) {
   const auto open_at = [&](std::size_t i) { return distances[i] > limit; };
   std::vector<std::size_t> runs;
   for (std::size_t i = begin; i < end; ++i) {
@@ -115,10 +117,13 @@ void count_gaps(const std::vector<double>& distances, std::size_t begin, std::si
     runs.pop_back();
   }
   result.gaps += runs.size();
-  for (const std::size_t run : runs) result.longest_gap = std::max(result.longest_gap, static_cast<double>(run) * piece_length);
+  for (const std::size_t run : runs)
+    result.longest_gap = std::max(result.longest_gap, static_cast<double>(run) * piece_length);
 }
 
-double share(double part, double whole) { return std::min(1.0, part / whole); }
+double share(double part, double whole) {
+  return std::min(1.0, part / whole);
+}
 
 void judge_truth(const TruthSamples& truth, const std::vector<TruthEdge>& edges, const std::vector<double>& distances,
                  const EvaluationSetup& setup, double limit, ToleranceResult& result) {
@@ -144,7 +149,8 @@ void judge_truth(const TruthSamples& truth, const std::vector<TruthEdge>& edges,
   const double total_length = std::accumulate(total.begin(), total.end(), 0.0);
   result.recall = share(covered_length, total_length);
   result.gaps_per_length = static_cast<double>(result.gaps) / total_length;
-  if (covered_length > 0.0) result.thinness = static_cast<double>(result.true_positives) * setup.spacing / covered_length;
+  if (covered_length > 0.0)
+    result.thinness = static_cast<double>(result.true_positives) * setup.spacing / covered_length;
   const double sum = result.precision.value_or(0.0) + *result.recall;
   result.f1 = sum > 0.0 ? 2.0 * result.precision.value_or(0.0) * *result.recall / sum : 0.0;
 }
@@ -180,7 +186,8 @@ void judge_whole_sets(const std::vector<double>& to_truth, const std::vector<dou
                weighted_quantile(to_detections, kHighQuantile, [&](std::size_t i) { return samples[i].length; }));
 }
 
-double covered_share(const std::vector<double>& distances, const std::vector<TruthSamples::Sample>& samples, double limit) {
+double covered_share(const std::vector<double>& distances, const std::vector<TruthSamples::Sample>& samples,
+                     double limit) {
   double covered = 0.0, total = 0.0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     total += samples[i].length;

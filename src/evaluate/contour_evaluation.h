@@ -1,9 +1,9 @@
 #pragma once
 /// @file How well detected contour points agree with the truth.
 ///
-/// Precision: share of detections within the tolerance of an edge; distances to edges are exact. Recall: share of the truth's
-/// length, cut into pieces of half a spacing, whose midpoint has a detection within the tolerance. Never one-to-one: dense and
-/// thin detections are judged alike, `thinness` tells them apart. Protocol: docs/quality (quality, section A).
+/// Precision: share of detections within the tolerance of an edge; distances to edges are exact. Recall: share of the
+/// truth's length, cut into pieces of half a spacing, whose midpoint has a detection within the tolerance. Never
+/// one-to-one: dense and thin detections are judged alike, `thinness` tells them apart.
 
 #include <array>
 #include <cstdint>
@@ -43,11 +43,11 @@ struct ToleranceResult {
   std::optional<double> recall;
   std::optional<double> f1;  ///< 0 if nothing was detected; empty only if there is no truth.
   std::array<std::optional<double>, kEdgeKinds> recall_of_kind;
-  std::optional<double> ceiling;            ///< Recall that labelling every input point would have; needs InputCoverage.
+  std::optional<double> ceiling;  ///< Recall that labelling every input point would have; needs InputCoverage.
   std::optional<double> average_precision;  ///< Area under the precision-recall curve as the score threshold falls.
   std::optional<double> offset_mean, offset_median, offset_rms;  ///< Distances of the true positives to the truth.
-  std::optional<double> thinness;   ///< True positives per spacing of covered length; 1: a single row of points.
-  std::uint64_t gaps = 0;           ///< Uncovered runs along edges; a run does not turn corners.
+  std::optional<double> thinness;         ///< True positives per spacing of covered length; 1: a single row of points.
+  std::uint64_t gaps = 0;                 ///< Uncovered runs along edges; a run does not turn corners.
   std::optional<double> gaps_per_length;  ///< gaps / total truth length.
   double longest_gap = 0.0;
 };
@@ -58,12 +58,12 @@ struct ContourEvaluation {
   std::uint64_t truth_edges = 0;
   double truth_length = 0.0;
   std::uint64_t detections = 0;
-  std::uint64_t masked = 0;      ///< Predictions dropped by class_mask.
-  std::uint64_t non_finite = 0;  ///< Predictions dropped because a coordinate is NaN or infinite.
+  std::uint64_t masked = 0;                 ///< Predictions dropped by class_mask.
+  std::uint64_t non_finite = 0;             ///< Predictions dropped because a coordinate is NaN or infinite.
   std::vector<ToleranceResult> tolerances;  ///< Ascending.
   /// Over all detections and all truth, whatever the tolerance; empty without detections or truth.
   std::optional<double> mean_to_truth, mean_to_detections, chamfer;  ///< chamfer: mean of the two means.
-  std::optional<double> hausdorff, hausdorff_95;                     ///< Larger of the two directions; 95: of the 95 % quantiles.
+  std::optional<double> hausdorff, hausdorff_95;  ///< Larger of the two directions; 95: of the 95 % quantiles.
 };
 
 /// How much of the truth the input cloud shows at all. Fed with the input in blocks; memory is bounded by the truth.
@@ -84,8 +84,9 @@ class InputCoverage {
   std::unique_ptr<Impl> impl_;
 };
 
-/// O((n + m) log(n + m)) for n predictions and m truth samples; about 100 bytes per detection and 80 per sample. Runs in parallel;
-/// the result does not depend on the number of threads. Throws ConfigError for invalid options, or if no spacing is known.
+/// O((n + m) log(n + m)) for n predictions and m truth samples; about 100 bytes per detection and 80 per sample. Runs
+/// in parallel; the result does not depend on the number of threads. Throws ConfigError for invalid options, or if no
+/// spacing is known.
 ContourEvaluation evaluate_contours(std::span<const PredictedPoint> predictions, const Truth& truth,
                                     const EvaluationOptions& options, const InputCoverage* input = nullptr);
 

@@ -16,7 +16,8 @@ Box3 piece_box(const TruthEdge& edge, double from, double to) {
   Box3 box;
   box.include(edge.point_at(from));
   box.include(edge.point_at(to));
-  const Vec3 largest{std::max(std::abs(box.min.x), std::abs(box.max.x)), std::max(std::abs(box.min.y), std::abs(box.max.y)),
+  const Vec3 largest{std::max(std::abs(box.min.x), std::abs(box.max.x)),
+                     std::max(std::abs(box.min.y), std::abs(box.max.y)),
                      std::max(std::abs(box.min.z), std::abs(box.max.z))};
   double margin = kRelativeMargin * (norm(largest) + edge.length());
   if (edge.shape == TruthEdge::Shape::kArc) {

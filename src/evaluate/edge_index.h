@@ -10,7 +10,8 @@
 
 namespace arris::evaluate {
 
-/// Immutable; safe to query from several threads. Law: nearest(p).distance equals the smallest edge.distance(p) of all edges.
+/// Immutable; safe to query from several threads. Law: nearest(p).distance equals the smallest edge.distance(p) of all
+/// edges.
 class EdgeIndex {
  public:
   struct Nearest {

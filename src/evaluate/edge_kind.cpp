@@ -15,13 +15,16 @@ KindMask parse_word(std::string_view word) {
   if (word == "folds") return kFoldKinds;
   if (word == "boundaries") return kBoundaryKinds;
   if (const auto kind = edge_kind(word)) return mask(*kind);
-  throw ConfigError("unknown kind of truth edge \"" + printable(word) +
-                    "\"; use all, folds, boundaries, boundary, convex, concave, rim_boundary, rim_convex or rim_concave");
+  throw ConfigError(
+      "unknown kind of truth edge \"" + printable(word) +
+      "\"; use all, folds, boundaries, boundary, convex, concave, rim_boundary, rim_convex or rim_concave");
 }
 
 }  // namespace
 
-std::string_view name(EdgeKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
+std::string_view name(EdgeKind kind) {
+  return kNames[static_cast<std::size_t>(kind)];
+}
 
 std::optional<EdgeKind> edge_kind(std::string_view word) {
   for (const EdgeKind kind : kAllEdgeKinds) {

@@ -13,12 +13,14 @@ EvaluationSetup prepare(const Truth& truth, const EvaluationOptions& options) {
   EvaluationSetup setup;
   setup.spacing = options.spacing != 0.0 ? options.spacing : truth.number("spacing", 0.0);
   if (!(setup.spacing > 0.0) || !std::isfinite(setup.spacing)) {
-    throw ConfigError("the point spacing is not known: the truth file has no positive \"# spacing=\"; give the spacing");
+    throw ConfigError(
+        "the point spacing is not known: the truth file has no positive \"# spacing=\"; give the spacing");
   }
   setup.noise = options.noise >= 0.0 ? options.noise : truth.number("noise", 0.0);
   if (!std::isfinite(setup.noise)) throw ConfigError("the noise must be finite");
   for (const double factor : options.tolerance_factors) {
-    if (!(factor > 0.0) || !std::isfinite(factor)) throw ConfigError(fmt::format("tolerance factor {} must be above 0", factor));
+    if (!(factor > 0.0) || !std::isfinite(factor))
+      throw ConfigError(fmt::format("tolerance factor {} must be above 0", factor));
     setup.tolerances.push_back(factor * setup.spacing);
   }
   setup.tolerances.push_back(std::max(setup.spacing, 3.0 * setup.noise));

@@ -1,5 +1,6 @@
 #pragma once
-/// @file What an evaluation and the coverage of its input must agree on: spacing, tolerances, counted edges. Private to evaluate.
+/// @file What an evaluation and the coverage of its input must agree on: spacing, tolerances, counted edges. Private to
+/// evaluate.
 
 #include <vector>
 
@@ -7,8 +8,8 @@
 
 namespace arris::evaluate {
 
-/// Relative slack of comparisons with a tolerance: grid points often lie at exactly half a spacing from an edge, and must
-/// not be judged by the last bit of a rounded coordinate.
+/// Relative slack of comparisons with a tolerance: grid points often lie at exactly half a spacing from an edge, and
+/// must not be judged by the last bit of a rounded coordinate.
 constexpr double kToleranceSlack = 1e-6;
 
 struct EvaluationSetup {

@@ -11,7 +11,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+Json number(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
 
 Json row_json(const ToleranceResult& row, double spacing) {
   Json kinds = Json::object();
@@ -39,8 +41,12 @@ Json row_json(const ToleranceResult& row, double spacing) {
           {"longest_gap", row.longest_gap}};
 }
 
-std::string share_text(const std::optional<double>& value) { return value ? fmt::format("{:.4f}", *value) : "-"; }
-std::string length_text(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; }
+std::string share_text(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4f}", *value) : "-";
+}
+std::string length_text(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4g}", *value) : "-";
+}
 
 }  // namespace
 
@@ -65,13 +71,13 @@ std::string to_json(const ContourEvaluation& evaluation) {
 }
 
 std::string to_table(const ContourEvaluation& evaluation) {
-  std::string text = fmt::format("truth      {} edges, {:.6g} long; spacing {:.6g}, noise {:.6g}\n", evaluation.truth_edges,
-                                 evaluation.truth_length, evaluation.spacing, evaluation.noise);
+  std::string text = fmt::format("truth      {} edges, {:.6g} long; spacing {:.6g}, noise {:.6g}\n",
+                                 evaluation.truth_edges, evaluation.truth_length, evaluation.spacing, evaluation.noise);
   text += fmt::format("detections {} ({} of other classes, {} without a position)\n\n", evaluation.detections,
                       evaluation.masked, evaluation.non_finite);
   constexpr std::string_view kRow = "{:>9} {:>6} {:>9} {:>7} {:>7} {:>7} {:>7} {:>9} {:>9} {:>8} {:>6} {:>9}\n";
-  text += fmt::format(kRow, "tolerance", "(s)", "precision", "recall", "F1", "AP", "ceiling", "offset", "rms", "thinness", "gaps",
-                      "longest");
+  text += fmt::format(kRow, "tolerance", "(s)", "precision", "recall", "F1", "AP", "ceiling", "offset", "rms",
+                      "thinness", "gaps", "longest");
   for (const ToleranceResult& row : evaluation.tolerances) {
     text += fmt::format(kRow, length_text(row.tolerance), length_text(row.tolerance / evaluation.spacing),
                         share_text(row.precision), share_text(row.recall), share_text(row.f1),
@@ -85,7 +91,8 @@ std::string to_table(const ContourEvaluation& evaluation) {
     const std::size_t index = static_cast<std::size_t>(kind);
     if (evaluation.tolerances.empty() || !evaluation.tolerances.front().recall_of_kind[index]) continue;
     text += fmt::format("{:<14}", name(kind));
-    for (const ToleranceResult& row : evaluation.tolerances) text += fmt::format(" {:>8}", share_text(row.recall_of_kind[index]));
+    for (const ToleranceResult& row : evaluation.tolerances)
+      text += fmt::format(" {:>8}", share_text(row.recall_of_kind[index]));
     text += '\n';
   }
   text += fmt::format("\nchamfer {}, hausdorff {}, 95 % {}\n", length_text(evaluation.chamfer),

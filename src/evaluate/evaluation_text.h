@@ -7,7 +7,8 @@
 
 namespace arris::evaluate {
 
-/// One JSON object, indented, ending in a newline; shares and lengths as numbers, undefined ones as null. Keys are stable.
+/// One JSON object, indented, ending in a newline; shares and lengths as numbers, undefined ones as null. Keys are
+/// stable.
 std::string to_json(const ContourEvaluation& evaluation);
 
 /// A table with one line per tolerance, recall per kind, and the distances of the whole sets; "-" where undefined.

@@ -38,7 +38,8 @@ std::vector<std::pair<float, double>> covered_samples(const ScoredDetections& de
 
 }  // namespace
 
-double average_precision(const ScoredDetections& detections, const BoxTree& tree, const TruthSamples& truth, double limit) {
+double average_precision(const ScoredDetections& detections, const BoxTree& tree, const TruthSamples& truth,
+                         double limit) {
   std::vector<std::pair<float, bool>> ranked;  // Score, true positive.
   for (std::size_t i = 0; i < detections.scores.size(); ++i) {
     const bool hit = detections.to_truth[i] <= limit;
@@ -51,7 +52,8 @@ double average_precision(const ScoredDetections& detections, const BoxTree& tree
   std::size_t next_sample = 0;
   for (std::size_t begin = 0, end = 0; begin < ranked.size(); begin = end) {
     const float threshold = ranked[begin].first;
-    for (end = begin; end < ranked.size() && ranked[end].first == threshold; ++end) hits += ranked[end].second ? 1.0 : 0.0;
+    for (end = begin; end < ranked.size() && ranked[end].first == threshold; ++end)
+      hits += ranked[end].second ? 1.0 : 0.0;
     const double before = covered_length;
     while (next_sample < covered.size() && covered[next_sample].first >= threshold) {
       covered_length += covered[next_sample++].second;

@@ -16,8 +16,9 @@ struct ScoredDetections {
   std::span<const double> to_others;  ///< Detections with to_truth > limit >= to_others are left out.
 };
 
-/// Sum over falling thresholds of (gain in recall) * (precision there), without interpolation; 0 without detections. Equal
-/// scores enter together, so the order of detections has no influence. @param tree  over positions.
-double average_precision(const ScoredDetections& detections, const BoxTree& tree, const TruthSamples& truth, double limit);
+/// Sum over falling thresholds of (gain in recall) * (precision there), without interpolation; 0 without detections.
+/// Equal scores enter together, so the order of detections has no influence. @param tree  over positions.
+double average_precision(const ScoredDetections& detections, const BoxTree& tree, const TruthSamples& truth,
+                         double limit);
 
 }  // namespace arris::evaluate

@@ -83,7 +83,8 @@ Row split(const LineReader& reader) {
 }
 
 bool is_role(std::string_view role) {
-  return role.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_") == std::string_view::npos;
+  return role.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_") ==
+         std::string_view::npos;
 }
 
 TruthEdge parse_edge(const LineReader& reader) {
@@ -106,7 +107,8 @@ TruthEdge parse_edge(const LineReader& reader) {
     if (std::abs(norm(edge.b) - 1.0) > kUnitTolerance) reader.fail("the axis of the arc must have length 1");
     const double radius = norm(edge.start);
     if (!(radius > 0.0) || !std::isfinite(radius)) reader.fail("the radius of the arc must be above 0 and finite");
-    if (std::abs(dot(edge.b, edge.start)) > kUnitTolerance * radius) reader.fail("the axis of the arc must be perpendicular to its start vector");
+    if (std::abs(dot(edge.b, edge.start)) > kUnitTolerance * radius)
+      reader.fail("the axis of the arc must be perpendicular to its start vector");
     if (!(edge.sweep_deg > 0.0 && edge.sweep_deg <= 360.0)) reader.fail("the sweep of the arc must be in (0, 360]");
   }
   if (!std::isfinite(edge.length())) reader.fail("the edge is too long");
@@ -122,7 +124,9 @@ double Truth::number(const std::string& key, double otherwise) const {
   return value;
 }
 
-std::string exact_text(double value) { return fmt::format("{:.17g}", value); }
+std::string exact_text(double value) {
+  return fmt::format("{:.17g}", value);
+}
 
 void write_truth_csv(std::ostream& out, const Truth& truth) {
   out << kMagic << '\n';
@@ -152,7 +156,8 @@ void write_truth_csv(const std::filesystem::path& path, const Truth& truth, bool
   if (!out) {
     const int reason = errno;
     std::filesystem::remove(partial, ignored);
-    throw IoError(fmt::format("cannot write {}.partial: {}", shown, reason != 0 ? std::strerror(reason) : "write failed"));
+    throw IoError(
+        fmt::format("cannot write {}.partial: {}", shown, reason != 0 ? std::strerror(reason) : "write failed"));
   }
   std::error_code failure;
   std::filesystem::rename(partial, path, failure);

@@ -22,7 +22,8 @@
 namespace arris::evaluate {
 
 struct Truth {
-  std::map<std::string, std::string> properties;  ///< "scene", "spacing", "noise", "seed", ...: keys and values of one line each.
+  std::map<std::string, std::string>
+      properties;  ///< "scene", "spacing", "noise", "seed", ...: keys and values of one line each.
   std::vector<TruthEdge> edges;
 
   friend bool operator==(const Truth&, const Truth&) = default;

@@ -27,7 +27,8 @@ double arc_distance(const TruthEdge& edge, const Vec3& point) {
     const Vec3 side = cross(edge.b, edge.start);
     double azimuth_deg = std::atan2(dot(in_plane, side), dot(in_plane, edge.start)) / kRadPerDeg;
     if (azimuth_deg < 0.0) azimuth_deg += 360.0;
-    if (azimuth_deg > edge.sweep_deg) return std::min(norm(point - edge.point_at(0.0)), norm(point - edge.point_at(1.0)));
+    if (azimuth_deg > edge.sweep_deg)
+      return std::min(norm(point - edge.point_at(0.0)), norm(point - edge.point_at(1.0)));
   }
   return std::hypot(norm(in_plane) - radius, height);
 }
@@ -69,7 +70,9 @@ TruthEdge make_circle(EdgeKind kind, std::string role, const Vec3& centre, const
   edge.b = normalized(axis);
   // Any direction across the axis will do; the coordinate axis least aligned with it is never parallel.
   const Vec3 size{std::abs(edge.b.x), std::abs(edge.b.y), std::abs(edge.b.z)};
-  const Vec3 helper = size.x <= size.y && size.x <= size.z ? Vec3{1, 0, 0} : size.y <= size.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  const Vec3 helper = size.x <= size.y && size.x <= size.z ? Vec3{1, 0, 0}
+                      : size.y <= size.z                   ? Vec3{0, 1, 0}
+                                                           : Vec3{0, 0, 1};
   edge.start = radius * normalized(helper - dot(helper, edge.b) * edge.b);
   edge.sweep_deg = 360.0;
   return edge;

@@ -9,18 +9,19 @@
 
 namespace arris::evaluate {
 
-/// Lengths in data units. Laws: (1) distance(point_at(t)) is 0 up to rounding for t in [0, 1]; (2) |distance(p) - distance(q)|
+/// Lengths in data units. Laws: (1) distance(point_at(t)) is 0 up to rounding for t in [0, 1]; (2) |distance(p) -
+/// distance(q)|
 /// <= |p - q|; (3) point_at moves at constant speed: the piece between t0 and t1 is (t1 - t0) * length() long.
 struct TruthEdge {
   enum class Shape : std::uint8_t { kSegment, kArc };
 
   EdgeKind kind = EdgeKind::kBoundary;
   Shape shape = Shape::kSegment;
-  std::string role;        ///< What a surveyor calls it: "ridge", "eave", "hole"; letters, digits and '_' only, may be empty.
+  std::string role;  ///< What a surveyor calls it: "ridge", "eave", "hole"; letters, digits and '_' only, may be empty.
   double angle_deg = 0.0;  ///< Angle between the two faces, (0, 180) for convex and concave alike; 0 for boundaries.
   Vec3 a;                  ///< Segment: first end. Arc: centre.
   Vec3 b;                  ///< Segment: second end. Arc: unit axis.
-  Vec3 start;              ///< Arc: from the centre to its first point, perpendicular to the axis; its length is the radius.
+  Vec3 start;  ///< Arc: from the centre to its first point, perpendicular to the axis; its length is the radius.
   double sweep_deg = 0.0;  ///< Arc: counter-clockwise about the axis, (0, 360]; 360 is a full circle.
 
   friend bool operator==(const TruthEdge&, const TruthEdge&) = default;

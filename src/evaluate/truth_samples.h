@@ -10,7 +10,8 @@
 
 namespace arris::evaluate {
 
-/// Pieces at most `step` long. Samples of an edge are consecutive and in order. 40 bytes per sample and 30 for the tree.
+/// Pieces at most `step` long. Samples of an edge are consecutive and in order. 40 bytes per sample and 30 for the
+/// tree.
 class TruthSamples {
  public:
   struct Sample {

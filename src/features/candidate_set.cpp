@@ -1,93 +1,125 @@
 #include "features/candidate_set.h"
 
-#include <algorithm>
 #include <limits>
+
+#include "features/simd_avx512.h"
 
 namespace arris {
 namespace {
-
-/// Largest coordinate magnitude that is exact in T. int64: any difference of lattice coordinates.
-template <class T>
-constexpr double kExactCoordinate = kExactSquares<T>;
 
 /// A coordinate no reach comes to, with a finite square.
 template <class T>
 constexpr T kOutside = static_cast<T>(1e15);
 
+/// The query box relative to the origin, and how far to look. A step more than asked for: rounding cannot lose a point.
+template <class T>
+struct Window {
+  T low[3], high[3];
+  T reach2;
+  std::int64_t origin[3];
+};
+
+/// The points [begin, end) that are near enough; returns the new count. Writes up to end - begin entries past it.
+template <class T>
+std::size_t append(const PointTree& tree, std::size_t begin, std::size_t end, const Window<T>& w, CandidateSet<T>& out,
+                   std::size_t n) {
+  for (std::size_t i = begin; i < end; ++i) {
+    // Without branches: every point is written, and the end advances as the point deserves.
+    const T px = static_cast<T>(tree.x()[i] - w.origin[0]);
+    const T py = static_cast<T>(tree.y()[i] - w.origin[1]);
+    const T pz = static_cast<T>(tree.z()[i] - w.origin[2]);
+    const T gx = bounded<T>(std::max(std::max(w.low[0] - px, px - w.high[0]), T{0}));
+    const T gy = bounded<T>(std::max(std::max(w.low[1] - py, py - w.high[1]), T{0}));
+    const T gz = bounded<T>(std::max(std::max(w.low[2] - pz, pz - w.high[2]), T{0}));
+    out.x[n] = px;
+    out.y[n] = py;
+    out.z[n] = pz;
+    out.slot[n] = static_cast<std::uint32_t>(i);
+    n += gx * gx + gy * gy + gz * gz <= w.reach2;
+  }
+  return n;
+}
+
+#if ARRIS_HAS_AVX512
+ARRIS_AVX512 std::size_t append_avx512(const PointTree& tree, std::size_t begin, std::size_t end, const Window<float>& w,
+                                       CandidateSet<float>& out, std::size_t n) {
+  const __m512i slots = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const std::int32_t* axes[3] = {tree.x(), tree.y(), tree.z()};
+  for (std::size_t i = begin; i < end; i += 16) {
+    const std::size_t left = end - i;
+    const auto valid = static_cast<__mmask16>(left >= 16 ? 0xffffU : (1U << left) - 1U);
+    __m512 p[3];
+    __m512 d2 = _mm512_setzero_ps();
+    for (int axis = 0; axis < 3; ++axis) {
+      // The caller has checked that the difference fits; the origin itself is a lattice coordinate.
+      const __m512i origin = _mm512_set1_epi32(static_cast<std::int32_t>(w.origin[axis]));
+      p[axis] = _mm512_cvtepi32_ps(_mm512_sub_epi32(_mm512_maskz_loadu_epi32(valid, axes[axis] + i), origin));
+      const __m512 below = _mm512_sub_ps(_mm512_set1_ps(w.low[axis]), p[axis]);
+      const __m512 above = _mm512_sub_ps(p[axis], _mm512_set1_ps(w.high[axis]));
+      const __m512 gap = _mm512_max_ps(_mm512_max_ps(below, above), _mm512_setzero_ps());
+      d2 = _mm512_add_ps(d2, _mm512_mul_ps(gap, gap));
+    }
+    const __mmask16 in = _mm512_mask_cmp_ps_mask(valid, d2, _mm512_set1_ps(w.reach2), _CMP_LE_OQ);
+    if (in == 0) continue;
+    _mm512_storeu_ps(out.x.data() + n, _mm512_maskz_compress_ps(in, p[0]));
+    _mm512_storeu_ps(out.y.data() + n, _mm512_maskz_compress_ps(in, p[1]));
+    _mm512_storeu_ps(out.z.data() + n, _mm512_maskz_compress_ps(in, p[2]));
+    const __m512i index = _mm512_add_epi32(_mm512_set1_epi32(static_cast<std::int32_t>(i)), slots);
+    _mm512_storeu_si512(out.slot.data() + n, _mm512_maskz_compress_epi32(in, index));
+    n += static_cast<std::size_t>(__builtin_popcount(in));
+  }
+  return n;
+}
+#endif
+
+template <class T>
+std::size_t append_best(const PointTree& tree, std::size_t begin, std::size_t end, const Window<T>& w, CandidateSet<T>& out,
+                        std::size_t n) {
+#if ARRIS_HAS_AVX512
+  if constexpr (std::is_same_v<T, float>) {
+    if (simd::has_avx512()) return append_avx512(tree, begin, end, w, out, n);
+  }
+#endif
+  return append(tree, begin, end, w, out, n);
+}
+
 }  // namespace
 
 template <class T>
-bool CandidateSet<T>::gather(const PointTree& tree, const ClosedBox& box, const GatherReach& wanted) {
-  reach = wanted;
-  near_count = 0;
-  T low[3];
-  T high[3];
+void CandidateSet<T>::make_room(std::size_t size) {
+  if (x.size() >= size) return;
+  size = std::max(2 * x.size(), size);
+  x.resize(size);
+  y.resize(size);
+  z.resize(size);
+  slot.resize(size);
+}
+
+template <class T>
+bool CandidateSet<T>::gather(const PointTree& tree, const ClosedBox& box, double reach) {
+  Window<T> window;
   for (int axis = 0; axis < 3; ++axis) {
-    origin[axis] = (std::int64_t{box.min[axis]} + box.max[axis]) >> 1;
-    low[axis] = static_cast<T>(box.min[axis] - origin[axis]);
-    high[axis] = static_cast<T>(box.max[axis] - origin[axis]);
+    origin[axis] = window.origin[axis] = (std::int64_t{box.min[axis]} + box.max[axis]) >> 1;
+    window.low[axis] = static_cast<T>(box.min[axis] - origin[axis]);
+    window.high[axis] = static_cast<T>(box.max[axis] - origin[axis]);
   }
-  // One step more than asked for, so that rounding of the test below cannot lose a point.
-  const double near2_wide = (wanted.near + 1.0) * (wanted.near + 1.0);
-  const double far2_wide = (wanted.far + 1.0) * (wanted.far + 1.0);
-  const T near2 = static_cast<T>(near2_wide);
-  const T far2 = static_cast<T>(far2_wide);
-  std::size_t far_count = 0;
+  window.reach2 = static_cast<T>((reach + 1.0) * (reach + 1.0));
+  std::size_t n = 0;
   bool exact = true;
-  tree.visit_near(box, wanted.far + 1.0, [&](std::size_t begin, std::size_t end, const ClosedBox& bucket) {
+  tree.visit_near(box, reach + 1.0, [&](std::size_t begin, std::size_t end, const ClosedBox& bucket) {
     for (int axis = 0; axis < 3; ++axis) {
-      const double below = static_cast<double>(origin[axis] - bucket.min[axis]);
-      const double above = static_cast<double>(bucket.max[axis] - origin[axis]);
-      if (std::max(below, above) > kExactCoordinate<T>) exact = false;
+      const std::int64_t farthest = std::max(origin[axis] - bucket.min[axis], bucket.max[axis] - origin[axis]);
+      if (static_cast<double>(farthest) > kExactSquares<T>) exact = false;
     }
     if (!exact) return;
-    const std::size_t room = end - begin;
-    if (x.size() < near_count + room + simd::kPadding) {
-      const std::size_t size = std::max(2 * x.size(), near_count + room + simd::kPadding);
-      x.resize(size);
-      y.resize(size);
-      z.resize(size);
-      slot.resize(size);
-    }
-    if (far_rows_.size() < far_count + room) far_rows_.resize(std::max(2 * far_rows_.size(), far_count + room));
-    for (std::size_t i = begin; i < end; ++i) {
-      // Without branches: every point is written to both ends, and the ends advance as the point deserves.
-      const T px = static_cast<T>(tree.x()[i] - origin[0]);
-      const T py = static_cast<T>(tree.y()[i] - origin[1]);
-      const T pz = static_cast<T>(tree.z()[i] - origin[2]);
-      const T gx = bounded<T>(std::max(std::max(low[0] - px, px - high[0]), T{0}));
-      const T gy = bounded<T>(std::max(std::max(low[1] - py, py - high[1]), T{0}));
-      const T gz = bounded<T>(std::max(std::max(low[2] - pz, pz - high[2]), T{0}));
-      const T d2 = gx * gx + gy * gy + gz * gz;
-      const bool is_near = d2 <= near2;
-      x[near_count] = px;
-      y[near_count] = py;
-      z[near_count] = pz;
-      slot[near_count] = static_cast<std::uint32_t>(i);
-      far_rows_[far_count] = {px, py, pz, static_cast<std::uint32_t>(i)};
-      near_count += is_near;
-      far_count += !is_near && d2 <= far2;
-    }
+    make_room(n + (end - begin) + simd::kPadding);
+    n = append_best(tree, begin, end, window, *this, n);
   });
   if (!exact) return false;
-  count = near_count + far_count;
-  const std::size_t size = simd::padded(count);
-  if (x.size() < size) {
-    x.resize(size);
-    y.resize(size);
-    z.resize(size);
-    slot.resize(size);
-  }
-  for (std::size_t i = 0; i < far_count; ++i) {
-    x[near_count + i] = far_rows_[i].x;
-    y[near_count + i] = far_rows_[i].y;
-    z[near_count + i] = far_rows_[i].z;
-    slot[near_count + i] = far_rows_[i].slot;
-  }
-  for (std::size_t i = count; i < size; ++i) {
-    x[i] = y[i] = z[i] = kOutside<T>;
-    slot[i] = std::numeric_limits<std::uint32_t>::max();
-  }
+  count = n;
+  const std::size_t size = simd::padded(n);
+  make_room(size);
+  for (std::size_t i = n; i < size; ++i) x[i] = y[i] = z[i] = kOutside<T>;
   return true;
 }
 

@@ -12,33 +12,18 @@
 
 namespace arris {
 
-/// How far the candidates reach: complete within `near` steps of the query box for the first near_count of them, within `far` for all.
-struct GatherReach {
-  double near = 0.0;
-  double far = 0.0;  ///< >= near.
-};
+/// Largest reach in steps that any query may have.
+constexpr double kMostReach = 1073741824.0;  // 2^30
 
-/// Candidates as structure of arrays relative to `origin`. `T` is float, double or std::int64_t; coordinates are exact in it.
+/// Squares of integers below this are exact in T.
 template <class T>
-struct CandidateSet {
-  std::vector<T> x, y, z;
-  std::vector<std::uint32_t> slot;  ///< Index in tree order.
-  std::size_t near_count = 0;
-  std::size_t count = 0;
-  GatherReach reach;
-  std::int64_t origin[3] = {0, 0, 0};
-
-  /// Fills the set for queries inside `box`. Arrays are padded to a multiple of simd::kPadding with points far outside of any reach.
-  /// Returns false, with no meaningful content, if a coordinate is not exact in T: the caller takes a wider type.
-  bool gather(const PointTree& tree, const ClosedBox& box, const GatherReach& reach);
-
- private:
-  struct Row {
-    T x, y, z;
-    std::uint32_t slot;
-  };
-  std::vector<Row> far_rows_;
-};
+constexpr double kExactSquares = 0.0;
+template <>
+inline constexpr double kExactSquares<float> = 16777216.0;  // 2^24
+template <>
+inline constexpr double kExactSquares<double> = 9007199254740992.0;  // 2^53
+template <>
+inline constexpr double kExactSquares<std::int64_t> = 9.2e18;  // Just below 2^63.
 
 /// Keeps squares of int64 differences from overflowing: what is cut is beyond every reach (kMostReach) and stays so.
 template <class T>
@@ -50,17 +35,21 @@ ARRIS_ALWAYS_INLINE T bounded(T difference) {
   }
 }
 
-/// Largest reach in steps that any query may have.
-constexpr double kMostReach = 1073741824.0;  // 2^30
-
-/// Squares of distances, in the type that holds them exactly, for coordinates in T.
+/// Candidates as structure of arrays relative to `origin`. `T` is float, double or std::int64_t; coordinates are exact in it.
 template <class T>
-constexpr double kExactSquares = 0.0;
-template <>
-inline constexpr double kExactSquares<float> = 16777216.0;  // 2^24
-template <>
-inline constexpr double kExactSquares<double> = 9007199254740992.0;  // 2^53
-template <>
-inline constexpr double kExactSquares<std::int64_t> = 9.2e18;  // Just below 2^63.
+struct CandidateSet {
+  std::vector<T> x, y, z;
+  std::vector<std::uint32_t> slot;  ///< Index in tree order.
+  std::size_t count = 0;
+  std::int64_t origin[3] = {0, 0, 0};
+
+  /// Every point within `reach` steps of `box`, and some more: complete for queries inside the box up to that distance. Arrays are
+  /// padded to a multiple of simd::kPadding with points far outside of any reach. Returns false, with no meaningful content, if a
+  /// coordinate is not exact in T: the caller takes a wider type. O(points in the buckets that the reach touches).
+  bool gather(const PointTree& tree, const ClosedBox& box, double reach);
+
+ private:
+  void make_room(std::size_t size);
+};
 
 }  // namespace arris

@@ -68,14 +68,26 @@ struct Batch {
   }
 };
 
-/// Entropy and planarity of eight neighbourhoods.
-ARRIS_SIMD_CLONES void evaluate(const Batch& b, SymmetricMatrix<double>* covariance, double* entropy, double* planarity) {
+struct Evaluation {
+  double xx[kLanes], xy[kLanes], xz[kLanes], yy[kLanes], yz[kLanes], zz[kLanes];  ///< n² times the covariance.
+  double largest[kLanes], middle[kLanes], smallest[kLanes];
+  double entropy[kLanes];
+
+  ScaleChoice choice(std::size_t lane, int k) const {
+    return {k,
+            {xx[lane], xy[lane], xz[lane], yy[lane], yz[lane], zz[lane]},
+            {largest[lane], middle[lane], smallest[lane]}};
+  }
+};
+
+/// Eight neighbourhoods at once.
+ARRIS_SIMD_CLONES void evaluate(const Batch& b, Evaluation& out) {
   using simd::Double8;
   const auto n = simd::load<Double8>(b.size);
   const auto x = simd::load<Double8>(b.x);
   const auto y = simd::load<Double8>(b.y);
   const auto z = simd::load<Double8>(b.z);
-  SymmetricMatrix<Double8> c;  // n² times the covariance.
+  SymmetricMatrix<Double8> c;
   c.xx = n * simd::load<Double8>(b.xx) - x * x;
   c.xy = n * simd::load<Double8>(b.xy) - x * y;
   c.xz = n * simd::load<Double8>(b.xz) - x * z;
@@ -83,24 +95,30 @@ ARRIS_SIMD_CLONES void evaluate(const Batch& b, SymmetricMatrix<double>* covaria
   c.yz = n * simd::load<Double8>(b.yz) - y * z;
   c.zz = n * simd::load<Double8>(b.zz) - z * z;
   const Eigenvalues<Double8> values = eigenvalues_of(c);
-  const Double8 e = entropy_of(values);
-  const Double8 ratio = values.middle / (values.largest > 0.0 ? values.largest : n);
-  simd::store(entropy, e);
-  simd::store(planarity, ratio);
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    covariance[lane] = {c.xx[lane], c.xy[lane], c.xz[lane], c.yy[lane], c.yz[lane], c.zz[lane]};
-  }
+  simd::store(out.xx, c.xx);
+  simd::store(out.xy, c.xy);
+  simd::store(out.xz, c.xz);
+  simd::store(out.yy, c.yy);
+  simd::store(out.yz, c.yz);
+  simd::store(out.zz, c.zz);
+  simd::store(out.largest, values.largest);
+  simd::store(out.middle, values.middle);
+  simd::store(out.smallest, values.smallest);
+  const Double8 entropy = entropy_of(values);
+  simd::store(out.entropy, entropy);
 }
 
 /// The running minimum over ascending k.
 struct Best {
   double entropy = std::numeric_limits<double>::infinity();
-  ScaleChoice choice;
+  std::size_t lane = 0;
+  int k = 0;
 
-  void offer(double e, int k, const SymmetricMatrix<double>& covariance) {
+  void offer(double e, std::size_t at, int size) {
     if (!(e < entropy - kEntropyTie)) return;
     entropy = e;
-    choice = {k, covariance};
+    lane = at;
+    k = size;
   }
 };
 
@@ -116,6 +134,8 @@ ScaleChoice choose_scale(const Neighbours& neighbours, const ScaleRange& range) 
   const int last = std::min(range.k_max, static_cast<int>(neighbours.count));
   Best planar;
   Best any;
+  ScaleChoice planar_choice;
+  ScaleChoice any_choice;
   RunningMoments moments;
   int added = 0;
   for (int k = range.k_min; k <= last;) {
@@ -128,16 +148,20 @@ ScaleChoice choose_scale(const Neighbours& neighbours, const ScaleRange& range) 
       sizes[lanes] = k;
     }
     for (std::size_t lane = lanes; lane < kLanes; ++lane) batch.set(lane, moments, k);
-    SymmetricMatrix<double> covariance[kLanes];
-    double entropy[kLanes];
-    double planarity[kLanes];
-    evaluate(batch, covariance, entropy, planarity);
+    Evaluation evaluation;
+    evaluate(batch, evaluation);
+    const int planar_before = planar.k;
+    const int any_before = any.k;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      any.offer(entropy[lane], sizes[lane], covariance[lane]);
-      if (planarity[lane] >= range.min_planarity) planar.offer(entropy[lane], sizes[lane], covariance[lane]);
+      any.offer(evaluation.entropy[lane], lane, sizes[lane]);
+      if (evaluation.middle[lane] >= range.min_planarity * evaluation.largest[lane]) {
+        planar.offer(evaluation.entropy[lane], lane, sizes[lane]);
+      }
     }
+    if (planar.k != planar_before) planar_choice = evaluation.choice(planar.lane, planar.k);
+    if (any.k != any_before) any_choice = evaluation.choice(any.lane, any.k);
   }
-  return planar.choice.k > 0 ? planar.choice : any.choice;
+  return planar.k > 0 ? planar_choice : any_choice;
 }
 
 }  // namespace arris

@@ -23,6 +23,7 @@ constexpr double kEntropyTie = 1e-6;
 struct ScaleChoice {
   int k = 0;  ///< k_opt; 0 if there are fewer than k_min neighbours.
   SymmetricMatrix<double> covariance{};  ///< Of the chosen neighbourhood, times an irrelevant factor; steps².
+  Eigenvalues<double> values{};          ///< Of the covariance.
 };
 
 /// Entropy of a1, a2, a3 (eq. 4, 5) for eigenvalues of any common scale; infinity if the largest is not positive.

@@ -1,28 +1,13 @@
 #include "features/fold_test.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "features/exact_math.h"
+#include "features/fixed_point.h"
 
 namespace arris {
 namespace {
-
-/// Rounds to multiples of a power of two, so that sums of the rounded values are exact and need no order.
-class FixedPoint {
- public:
-  /// Sums of up to `terms` values in [0, largest] stay exact, to as many bits as that leaves but at most `bits`.
-  FixedPoint(double largest, std::size_t terms, int bits) {
-    const int room = 51 - static_cast<int>(std::bit_width(terms));
-    magic_ = std::ldexp(1.5, 52 + std::ilogb(largest) + 1 - std::min(bits, room));
-  }
-  /// (value + magic) - magic is the rounded value.
-  double magic() const { return magic_; }
-
- private:
-  double magic_;
-};
 
 struct Chord {
   double x, y;    ///< One end.
@@ -146,7 +131,7 @@ void evaluate_fold(const PrincipalFrame& frame, const FoldThresholds& thresholds
   if (n < kLeastBallPoints) return;
   project(frame, s);
   gather_ends(s, thresholds.radius);
-  const Diameter diameter = planar_diameter(s.ends);
+  const Diameter diameter = planar_diameter(s.ends, s.hull);
   if (!(diameter.length2 > 0.0)) return;
   const double length = std::sqrt(diameter.length2);
   const Chord chord{diameter.a.x, diameter.a.y, (diameter.b.x - diameter.a.x) / length,
@@ -155,11 +140,11 @@ void evaluate_fold(const PrincipalFrame& frame, const FoldThresholds& thresholds
     s.u[i] = chord.x;
     s.v[i] = chord.y;
   }
-  const FixedPoint to_line(2.0 * thresholds.radius, n, 30);
+  const FixedPoint to_line(2.0 * thresholds.radius, n, kDistanceBits);
   Sides sides;
-  measure(s.u.data(), s.v.data(), simd::padded(n), chord, to_line.magic(), 1e-9 * thresholds.radius, s.distance.data(), sides);
+  measure(s.u.data(), s.v.data(), simd::padded(n), chord, to_line.magic(), kOnLine * thresholds.radius, s.distance.data(), sides);
   const double mean = sides.sum / static_cast<double>(n);
-  const FixedPoint to_square(4.0 * thresholds.radius * thresholds.radius, n, 50);
+  const FixedPoint to_square(4.0 * thresholds.radius * thresholds.radius, n, kSquareBits);
   const double squares = sum_of_squares(s.distance.data(), n, mean, to_square.magic());
   const double cf1 = std::sqrt(squares / static_cast<double>(n - 1));
   if (!(cf1 >= thresholds.cf1)) return;

@@ -17,6 +17,12 @@ constexpr std::size_t kLeastBallPoints = 6;
 /// C_f1 of an exact fold of interior angle theta, centred in a ball of radius r: kFoldLaw * r * cos(theta / 2).
 constexpr double kFoldLaw = 0.2643;
 
+/// Distances to the chord are rounded to 2^-kDistanceBits of the ball's diameter, their squares to 2^-kSquareBits of its square.
+constexpr int kDistanceBits = 30;
+constexpr int kSquareBits = 50;
+/// Members this close to the chord, in radii, are on it and on neither side.
+constexpr double kOnLine = 1e-9;
+
 struct FoldThresholds {
   double radius = 0.0;  ///< r, steps.
   double cf1 = 0.0;     ///< C'_f1, steps, > 0.
@@ -42,7 +48,7 @@ struct FoldScratch {
   std::vector<std::uint32_t> candidates;
   std::vector<BallMember> members;
   std::vector<double> u, v, distance;
-  std::vector<PlanarPoint> ends;
+  std::vector<PlanarPoint> ends, hull;
   std::vector<std::uint32_t> top;
 };
 

@@ -10,10 +10,8 @@
 namespace arris {
 namespace {
 
-/// Queries that share their candidates: this many neighbouring buckets.
-constexpr std::size_t kGroupBuckets = 2;
-/// Groups per work item: enough to make its scratch memory cheap, few enough to balance the load.
-constexpr std::size_t kChunkGroups = 32;
+/// Buckets per work item: enough to make its scratch memory cheap, few enough to balance the load.
+constexpr std::size_t kChunkBuckets = 64;
 
 }  // namespace
 
@@ -26,14 +24,13 @@ TileContours extract_liu_with(const TilePoints& tile, const Lattice& lattice, co
   ContourAccumulator results(tree.size(), parameters.fold);
   const LiuTask task{tree, tile.covered, settings, results};
   std::mutex mutex;  // Guards contours.unproven.
-  const std::size_t groups = (tree.buckets() + kGroupBuckets - 1) / kGroupBuckets;
-  parallel_for_chunks(groups, kChunkGroups, [&](std::size_t first, std::size_t last) {
+  parallel_for_chunks(tree.buckets(), kChunkBuckets, [&](std::size_t first, std::size_t last) {
     LiuRunner runner(task);
     std::vector<std::uint32_t> slots;
-    for (std::size_t group = first; group < last; ++group) {
+    for (std::size_t bucket = first; bucket < last; ++bucket) {
       slots.clear();
-      const std::size_t begin = tree.bucket_begin(group * kGroupBuckets);
-      const std::size_t end = tree.bucket_begin(std::min((group + 1) * kGroupBuckets, tree.buckets()));
+      const std::size_t begin = tree.bucket_begin(bucket);
+      const std::size_t end = tree.bucket_begin(bucket + 1);
       for (std::size_t slot = begin; slot < end; ++slot) {
         const bool asked = wanted ? (*wanted)[tree.entry(slot)] != 0 : tile.core.contains(tree.position(slot));
         if (asked) slots.push_back(static_cast<std::uint32_t>(slot));

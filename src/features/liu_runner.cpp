@@ -8,15 +8,23 @@
 namespace arris {
 namespace {
 
-/// Reaches are guessed this much above the mean need of the bucket before: most queries then need no second gathering, and
+/// The first reach is guessed this much above the mean need of the group before: most queries then need no second gathering, and
 /// candidates stay few.
-constexpr double kNearMargin = 1.18;
-constexpr double kFarMargin = 1.08;
+constexpr double kReachMargin = 1.25;
+constexpr double kReachGrowth = 1.4;
+/// Balls up to this much larger than the median of their group share its candidates.
+constexpr double kBallSpread = 1.3;
 
-ClosedBox box_of(const PointTree& tree, std::span<const std::uint32_t> slots) {
-  ClosedBox box = tree.bounds(slots[0], slots[0] + 1);
-  for (const std::uint32_t slot : slots) {
-    const LatticePoint p = tree.position(slot);
+std::uint32_t slot_of(std::uint32_t slot) { return slot; }
+std::uint32_t slot_of(const LiuBall& ball) { return ball.slot; }
+
+/// Box around queries: slots, or anything else that slot_of knows.
+template <class Query>
+ClosedBox box_of(const PointTree& tree, std::span<const Query> queries) {
+  const LatticePoint first = tree.position(slot_of(queries[0]));
+  ClosedBox box{{first.x, first.y, first.z}, {first.x, first.y, first.z}};
+  for (const Query& query : queries) {
+    const LatticePoint p = tree.position(slot_of(query));
     for (int axis = 0; axis < 3; ++axis) {
       box.min[axis] = std::min(box.min[axis], p[axis]);
       box.max[axis] = std::max(box.max[axis], p[axis]);
@@ -39,62 +47,73 @@ LiuRunner::LiuRunner(const LiuTask& task) : task_(task) {
 
 void LiuRunner::run(std::span<const std::uint32_t> slots) {
   if (slots.empty()) return;
-  const GatherReach reach = expected_reach(slots);
-  near_sum_ = far_sum_ = 0.0;
+  double reach = first_reach(slots);
+  reach_sum_ = 0.0;
   measured_ = 0;
-  run_group(slots, reach);
-  while (!retries_.empty()) {
-    const Retry retry = retries_.back();
-    retries_.pop_back();
-    run_group(std::span(&retry.slot, 1), {retry.reach, retry.reach});
+  pending_.clear();
+  balls_.clear();
+  run_neighbours(slots, reach);
+  while (!pending_.empty()) {
+    reach = std::min(kReachGrowth * reach + 1.0, task_.settings.max_reach);
+    const std::vector<std::uint32_t> again = std::move(pending_);
+    pending_.clear();
+    run_neighbours(again, reach);
+  }
+  // Balls of one size together; the few large ones would only burden the others.
+  std::sort(balls_.begin(), balls_.end(), [](const LiuBall& a, const LiuBall& b) {
+    return a.thresholds.radius != b.thresholds.radius ? a.thresholds.radius < b.thresholds.radius : a.slot < b.slot;
+  });
+  for (std::span<const LiuBall> left(balls_); !left.empty();) {
+    const double most = kBallSpread * left[left.size() / 2].thresholds.radius;
+    std::size_t take = left.size();
+    while (left[take - 1].thresholds.radius > most) --take;
+    run_balls(left.first(take));
+    left = left.subspan(take);
   }
 }
 
-GatherReach LiuRunner::expected_reach(std::span<const std::uint32_t> slots) const {
-  const LiuParameters& p = task_.settings.parameters;
-  double near = 0.0;
-  double far = 0.0;
+double LiuRunner::first_reach(std::span<const std::uint32_t> slots) const {
+  double reach = 0.0;
   if (measured_ > 0) {
-    near = kNearMargin * near_sum_ / static_cast<double>(measured_);
-    far = kFarMargin * far_sum_ / static_cast<double>(measured_);
+    reach = kReachMargin * reach_sum_ / static_cast<double>(measured_);
   } else {
-    // As if the bucket's points lay on a plane that its two longest sides span.
-    const ClosedBox box = box_of(task_.tree, slots);
+    // As if the points lay on a plane that the two longest sides of their box span.
+    const ClosedBox box = box_of<std::uint32_t>(task_.tree, slots);
     double sides[3];
     for (int axis = 0; axis < 3; ++axis) sides[axis] = static_cast<double>(box.max[axis]) - box.min[axis] + 1.0;
     std::sort(std::begin(sides), std::end(sides));
-    const double spacing = std::sqrt(sides[1] * sides[2] / static_cast<double>(slots.size()));
-    near = 1.5 * spacing * std::sqrt(p.k_max / kPi);
-    if (p.fold) far = p.radius > 0.0 ? p.radius / task_.settings.step : 1.2 * p.radius_factor * spacing;
+    const double points = static_cast<double>(slots.size());
+    reach = 1.5 * std::sqrt(sides[1] * sides[2] / points * task_.settings.parameters.k_max / kPi);
   }
-  near = std::min(std::max(near, 2.0), task_.settings.max_reach);
-  far = std::clamp(far, near, task_.settings.max_reach);
-  return {near, far};
+  return std::min(std::max(reach, 2.0), task_.settings.max_reach);
 }
 
-void LiuRunner::run_group(std::span<const std::uint32_t> slots, const GatherReach& reach) {
-  const ClosedBox box = box_of(task_.tree, slots);
+void LiuRunner::run_neighbours(std::span<const std::uint32_t> slots, double reach) {
   const auto narrowest = task_.settings.switches.narrowest;
   using Narrowest = LiuSwitches::Arithmetic;
-  if (narrowest <= Narrowest::kFloat && try_group(floats_, box, slots, reach)) return;
-  if (narrowest <= Narrowest::kDouble && try_group(doubles_, box, slots, reach)) return;
-  try_group(integers_, box, slots, reach);
+  if (narrowest <= Narrowest::kFloat && try_neighbours(floats_, slots, reach)) return;
+  if (narrowest <= Narrowest::kDouble && try_neighbours(doubles_, slots, reach)) return;
+  try_neighbours(integers_, slots, reach);
 }
 
 template <class T>
-bool LiuRunner::try_group(Arithmetic<T>& arithmetic, const ClosedBox& box, std::span<const std::uint32_t> slots,
-                          const GatherReach& reach) {
-  // One step of slack: the gathering reaches a step farther than asked for.
-  if ((reach.far + 1.0) * (reach.far + 1.0) >= kExactSquares<T>) return false;
-  if (!arithmetic.candidates.gather(task_.tree, box, reach)) return false;
-  if (!ball_sums_are_exact<T>(reach.far, arithmetic.candidates.count)) return false;
-  arithmetic.guess_d2 = squared_limit<T>(reach.near / kNearMargin, task_.settings.max_d2);
-  for (const std::uint32_t slot : slots) run_query(arithmetic, slot);
+bool LiuRunner::try_neighbours(Arithmetic<T>& arithmetic, std::span<const std::uint32_t> slots, double reach) {
+  if ((reach + 1.0) * (reach + 1.0) >= kExactSquares<T>) return false;
+  if (!arithmetic.candidates.gather(task_.tree, box_of<std::uint32_t>(task_.tree, slots), reach)) return false;
+  arithmetic.guess_d2 = squared_limit<T>(reach / kReachMargin, task_.settings.max_d2);
+  for (const std::uint32_t slot : slots) {
+    if (find_neighbours(arithmetic, slot, reach)) {
+      use_neighbours(slot);
+    } else {
+      pending_.push_back(slot);
+    }
+  }
   return true;
 }
 
+/// False if neighbours may lie beyond the reach.
 template <class T>
-bool LiuRunner::find_neighbours(Arithmetic<T>& arithmetic, std::uint32_t slot) {
+bool LiuRunner::find_neighbours(Arithmetic<T>& arithmetic, std::uint32_t slot, double reach) {
   const LiuSettings& settings = task_.settings;
   const CandidateSet<T>& candidates = arithmetic.candidates;
   const PointTree& tree = task_.tree;
@@ -103,25 +122,27 @@ bool LiuRunner::find_neighbours(Arithmetic<T>& arithmetic, std::uint32_t slot) {
   query.y = static_cast<T>(tree.y()[slot] - candidates.origin[1]);
   query.z = static_cast<T>(tree.z()[slot] - candidates.origin[2]);
   query.k = static_cast<std::size_t>(settings.parameters.k_max);
-  query.max_d2 = squared_limit<T>(candidates.reach.near, settings.max_d2);
+  query.max_d2 = squared_limit<T>(reach, settings.max_d2);
   query.guess_d2 = arithmetic.guess_d2;
-  select_nearest(tree, candidates, candidates.near_count, query, arithmetic.nearest, neighbours_);
-  const auto complete = [&] {
-    return neighbours_.count == query.k || static_cast<std::uint64_t>(query.max_d2) == settings.max_d2;
-  };
-  if (!complete() && candidates.reach.far > candidates.reach.near) {
-    query.max_d2 = squared_limit<T>(candidates.reach.far, settings.max_d2);
-    select_nearest(tree, candidates, candidates.count, query, arithmetic.nearest, neighbours_);
-  }
-  if (!complete()) {
-    // R_max² may be no whole number: at R_max itself every neighbour is found.
-    retries_.push_back({slot, std::min(1.5 * candidates.reach.far + 1.0, settings.max_reach)});
-    return false;
-  }
-  if (neighbours_.count == query.k) {
-    arithmetic.guess_d2 = static_cast<T>(1.15 * static_cast<double>(neighbours_.last_d2) + 1.0);
-  }
+  select_nearest(tree, candidates, query, arithmetic.nearest, neighbours_);
+  if (neighbours_.count < query.k) return static_cast<std::uint64_t>(query.max_d2) == settings.max_d2;
+  arithmetic.guess_d2 = static_cast<T>(1.1 * static_cast<double>(neighbours_.last_d2) + 1.0);
   return true;
+}
+
+void LiuRunner::use_neighbours(std::uint32_t slot) {
+  const LiuParameters& parameters = task_.settings.parameters;
+  reach_sum_ += std::sqrt(static_cast<double>(neighbours_.last_d2));
+  ++measured_;
+  const LocalSpacing spacing = task_.settings.spacing(neighbours_);
+  const FoldThresholds fold = task_.settings.fold_thresholds(spacing);
+  if (!proven(slot, fold)) return;
+  if (neighbours_.count < static_cast<std::size_t>(parameters.k_min)) {
+    task_.results.add_isolated(slot);
+    return;
+  }
+  if (parameters.boundary) test_boundary(slot, spacing);
+  if (parameters.fold) balls_.push_back({slot, fold});
 }
 
 bool LiuRunner::proven(std::uint32_t slot, const FoldThresholds& fold) {
@@ -145,33 +166,10 @@ bool LiuRunner::proven(std::uint32_t slot, const FoldThresholds& fold) {
   return false;
 }
 
-template <class T>
-void LiuRunner::run_query(Arithmetic<T>& arithmetic, std::uint32_t slot) {
-  const LiuSettings& settings = task_.settings;
-  const LiuParameters& parameters = settings.parameters;
-  if (!find_neighbours(arithmetic, slot)) return;
-  const LocalSpacing spacing = settings.spacing(neighbours_);
-  const FoldThresholds fold = settings.fold_thresholds(spacing);
-  if (parameters.fold && fold.radius > arithmetic.candidates.reach.far) {
-    retries_.push_back({slot, fold.radius});
-    return;
-  }
-  near_sum_ += std::sqrt(static_cast<double>(neighbours_.last_d2));
-  far_sum_ += fold.radius;
-  ++measured_;
-  if (!proven(slot, fold)) return;
-  if (neighbours_.count < static_cast<std::size_t>(parameters.k_min)) {
-    task_.results.add_isolated(slot);
-    return;
-  }
-  if (parameters.boundary) test_boundary(slot, spacing);
-  if (parameters.fold) test_fold(arithmetic, slot, fold);
-}
-
 void LiuRunner::test_boundary(std::uint32_t slot, const LocalSpacing& spacing) {
   const ScaleChoice choice = choose_scale(neighbours_, task_.settings.scale);
   if (choice.k == 0) return;
-  const PrincipalFrame frame = principal_frame(choice.covariance);
+  const PrincipalFrame frame = principal_frame(choice.covariance, choice.values);
   GapQuery query;
   query.u = frame.e1;
   query.v = frame.e2;
@@ -185,22 +183,45 @@ void LiuRunner::test_boundary(std::uint32_t slot, const LocalSpacing& spacing) {
                                                                       : test.without_rejection(neighbours_, query, azimuths_));
 }
 
+void LiuRunner::run_balls(std::span<const LiuBall> balls) {
+  const auto narrowest = task_.settings.switches.narrowest;
+  using Narrowest = LiuSwitches::Arithmetic;
+  if (narrowest <= Narrowest::kFloat && try_balls(floats_, balls)) return;
+  if (narrowest <= Narrowest::kDouble && try_balls(doubles_, balls)) return;
+  try_balls(integers_, balls);
+}
+
+/// Balls in ascending order of their radii.
 template <class T>
-void LiuRunner::test_fold(const Arithmetic<T>& arithmetic, std::uint32_t slot, const FoldThresholds& thresholds) {
+bool LiuRunner::try_balls(Arithmetic<T>& arithmetic, std::span<const LiuBall> balls) {
+  const double reach = balls.back().thresholds.radius;
+  if ((reach + 1.0) * (reach + 1.0) >= kExactSquares<T>) return false;
+  if (!arithmetic.candidates.gather(task_.tree, box_of<LiuBall>(task_.tree, balls), reach)) return false;
+  if (!ball_sums_are_exact<T>(reach, arithmetic.candidates.count)) return false;
+  for (const LiuBall& ball : balls) test_fold(arithmetic.candidates, ball);
+  return true;
+}
+
+template <class T>
+void LiuRunner::test_fold(const CandidateSet<T>& candidates, const LiuBall& query) {
   const PointTree& tree = task_.tree;
-  const CandidateSet<T>& candidates = arithmetic.candidates;
-  const BallQuery<T> ball{static_cast<T>(tree.x()[slot] - candidates.origin[0]), static_cast<T>(tree.y()[slot] - candidates.origin[1]),
-                          static_cast<T>(tree.z()[slot] - candidates.origin[2]),
-                          static_cast<T>(static_cast<std::uint64_t>(thresholds.radius * thresholds.radius))};
+  const auto& [slot, thresholds] = query;
+  const double radius = thresholds.radius;
+  BallQuery<T> ball;
+  ball.x = static_cast<T>(tree.x()[slot] - candidates.origin[0]);
+  ball.y = static_cast<T>(tree.y()[slot] - candidates.origin[1]);
+  ball.z = static_cast<T>(tree.z()[slot] - candidates.origin[2]);
+  ball.radius2 = static_cast<T>(static_cast<std::uint64_t>(radius * radius));
   const BallMoments moments = ball_moments(candidates, ball);
   if (moments.n < static_cast<double>(kLeastBallPoints)) return;
   const SymmetricMatrix<double> covariance = moments.covariance();
   const bool reject_early = task_.settings.switches.early_rejection;
-  if (reject_early && chord_deviation_bound(eigenvalues_of(covariance), moments.n, thresholds.radius) < thresholds.cf1) return;
-  const PrincipalFrame frame = principal_frame(covariance);
+  const Eigenvalues<double> values = eigenvalues_of(covariance);
+  if (reject_early && chord_deviation_bound(values, moments.n, radius) < thresholds.cf1) return;
+  const PrincipalFrame frame = principal_frame(covariance, values);
   if (reject_early) {
     const double extent = extent_bound(candidates, ball, frame.e3);
-    if (chord_deviation_bound(frame.values, moments.n, thresholds.radius, extent) < thresholds.cf1) return;
+    if (chord_deviation_bound(values, moments.n, radius, extent) < thresholds.cf1) return;
   }
   const std::size_t n = ball_members(candidates, ball, fold_.candidates);
   fold_.members.resize(n);

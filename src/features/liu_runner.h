@@ -22,9 +22,15 @@ struct LiuTask {
   ContourAccumulator& results;
 };
 
-/// Not thread-safe; make one per chunk. Candidates are gathered once for all queries of a bucket; a query whose support is wider than
-/// what was gathered is run again by itself with what it needs. How far a gathering reaches is guessed from the bucket before and
-/// decides only the speed.
+/// A fold test to be made.
+struct LiuBall {
+  std::uint32_t slot;
+  FoldThresholds thresholds;
+};
+
+/// Not thread-safe; make one per chunk. Candidates are gathered once for all queries of a group, first for the neighbours and the
+/// boundary test, then for the balls, whose radii are known by then. How far the first gathering reaches is guessed from the group
+/// before; queries that need more are run again. That decides the speed only.
 class LiuRunner {
  public:
   explicit LiuRunner(const LiuTask& task);
@@ -41,23 +47,23 @@ class LiuRunner {
     NearestScratch<T> nearest;
     T guess_d2 = 0;
   };
-  struct Retry {
-    std::uint32_t slot;
-    double reach;
-  };
 
-  void run_group(std::span<const std::uint32_t> slots, const GatherReach& reach);
+  void run_neighbours(std::span<const std::uint32_t> slots, double reach);
   template <class T>
-  bool try_group(Arithmetic<T>& arithmetic, const ClosedBox& box, std::span<const std::uint32_t> slots, const GatherReach& reach);
+  bool try_neighbours(Arithmetic<T>& arithmetic, std::span<const std::uint32_t> slots, double reach);
   template <class T>
-  void run_query(Arithmetic<T>& arithmetic, std::uint32_t slot);
-  template <class T>
-  bool find_neighbours(Arithmetic<T>& arithmetic, std::uint32_t slot);
+  bool find_neighbours(Arithmetic<T>& arithmetic, std::uint32_t slot, double reach);
+  void use_neighbours(std::uint32_t slot);
   bool proven(std::uint32_t slot, const FoldThresholds& fold);
   void test_boundary(std::uint32_t slot, const LocalSpacing& spacing);
+
+  void run_balls(std::span<const LiuBall> balls);
   template <class T>
-  void test_fold(const Arithmetic<T>& arithmetic, std::uint32_t slot, const FoldThresholds& thresholds);
-  GatherReach expected_reach(std::span<const std::uint32_t> slots) const;
+  bool try_balls(Arithmetic<T>& arithmetic, std::span<const LiuBall> balls);
+  template <class T>
+  void test_fold(const CandidateSet<T>& candidates, const LiuBall& ball);
+
+  double first_reach(std::span<const std::uint32_t> slots) const;
 
   LiuTask task_;
   Arithmetic<float> floats_;
@@ -67,11 +73,10 @@ class LiuRunner {
   std::vector<AzimuthGapTest::Entry> azimuths_;
   FoldScratch fold_;
   FoldEmission emission_;
-  std::vector<Retry> retries_;
+  std::vector<std::uint32_t> pending_;  ///< Queries that the current reach did not do for.
+  std::vector<LiuBall> balls_;             ///< Balls of the current group.
   std::vector<UnprovenQuery> unproven_;
-  // Sums over the queries of the current bucket, from which the next bucket's reach is guessed.
-  double near_sum_ = 0.0;
-  double far_sum_ = 0.0;
+  double reach_sum_ = 0.0;  ///< Of the distances of last neighbours in the current group.
   std::size_t measured_ = 0;
 };
 

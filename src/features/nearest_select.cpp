@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <limits>
 #include <type_traits>
-#include <utility>
+
+#include "features/simd_avx512.h"
 
 namespace arris {
 namespace {
@@ -12,13 +13,13 @@ namespace {
 constexpr std::size_t kMostRanked = 160;
 
 template <class T>
-ARRIS_ALWAYS_INLINE std::size_t collect_within(const CandidateSet<T>& c, std::size_t scanned, const NearestQuery<T>& q, T limit,
-                                               T* d2_out, std::uint32_t* candidate_out) {
+ARRIS_ALWAYS_INLINE std::size_t collect_within(const CandidateSet<T>& c, const NearestQuery<T>& q, T limit, T* d2_out,
+                                               std::uint32_t* candidate_out) {
   constexpr std::size_t kBlock = 64;  // Distances of a block first: that loop has no dependences and becomes vector code.
   T d2[kBlock];
   std::size_t n = 0;
-  for (std::size_t begin = 0; begin < scanned; begin += kBlock) {
-    const std::size_t length = std::min(kBlock, scanned - begin);
+  for (std::size_t begin = 0; begin < c.count; begin += kBlock) {
+    const std::size_t length = std::min(kBlock, c.count - begin);
     for (std::size_t i = 0; i < length; ++i) {
       const T dx = bounded<T>(c.x[begin + i] - q.x);
       const T dy = bounded<T>(c.y[begin + i] - q.y);
@@ -34,17 +35,38 @@ ARRIS_ALWAYS_INLINE std::size_t collect_within(const CandidateSet<T>& c, std::si
   return n;
 }
 
-ARRIS_SIMD_CLONES std::size_t collect(const CandidateSet<float>& c, std::size_t scanned, const NearestQuery<float>& q, float limit,
-                                      float* d2, std::uint32_t* candidate) {
-  return collect_within(c, scanned, q, limit, d2, candidate);
+#if ARRIS_HAS_AVX512
+ARRIS_AVX512 std::size_t collect_avx512(const CandidateSet<float>& c, const NearestQuery<float>& q, float limit, float* d2_out,
+                                        std::uint32_t* candidate_out) {
+  const __m512 qx = _mm512_set1_ps(q.x);
+  const __m512 qy = _mm512_set1_ps(q.y);
+  const __m512 qz = _mm512_set1_ps(q.z);
+  const __m512 most = _mm512_set1_ps(limit);
+  __m512i index = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < simd::padded(c.count); i += 16) {  // The padding is beyond every limit.
+    const __m512 dx = _mm512_sub_ps(_mm512_loadu_ps(c.x.data() + i), qx);
+    const __m512 dy = _mm512_sub_ps(_mm512_loadu_ps(c.y.data() + i), qy);
+    const __m512 dz = _mm512_sub_ps(_mm512_loadu_ps(c.z.data() + i), qz);
+    const __m512 d2 = _mm512_add_ps(_mm512_add_ps(_mm512_mul_ps(dx, dx), _mm512_mul_ps(dy, dy)), _mm512_mul_ps(dz, dz));
+    const __mmask16 in = _mm512_cmp_ps_mask(d2, most, _CMP_LE_OQ);
+    _mm512_storeu_ps(d2_out + n, _mm512_maskz_compress_ps(in, d2));
+    _mm512_storeu_si512(candidate_out + n, _mm512_maskz_compress_epi32(in, index));
+    n += static_cast<std::size_t>(__builtin_popcount(in));
+    index = _mm512_add_epi32(index, _mm512_set1_epi32(16));
+  }
+  return n;
 }
-ARRIS_SIMD_CLONES std::size_t collect(const CandidateSet<double>& c, std::size_t scanned, const NearestQuery<double>& q,
-                                      double limit, double* d2, std::uint32_t* candidate) {
-  return collect_within(c, scanned, q, limit, d2, candidate);
-}
-std::size_t collect(const CandidateSet<std::int64_t>& c, std::size_t scanned, const NearestQuery<std::int64_t>& q,
-                    std::int64_t limit, std::int64_t* d2, std::uint32_t* candidate) {
-  return collect_within(c, scanned, q, limit, d2, candidate);
+#endif
+
+template <class T>
+std::size_t collect(const CandidateSet<T>& c, const NearestQuery<T>& q, T limit, T* d2, std::uint32_t* candidate) {
+#if ARRIS_HAS_AVX512
+  if constexpr (std::is_same_v<T, float>) {
+    if (simd::has_avx512()) return collect_avx512(c, q, limit, d2, candidate);
+  }
+#endif
+  return collect_within(c, q, limit, d2, candidate);
 }
 
 /// rank[i] = how many of the n values are smaller than values[i]. `values` is padded to full vectors.
@@ -80,7 +102,8 @@ void sort_by_rank(NearestScratch<T>& s, std::size_t n) {
 
 template <class T>
 void sort_by_comparison(NearestScratch<T>& s, std::size_t n, std::size_t wanted) {
-  std::vector<std::pair<T, std::uint32_t>> pairs(n);  // Rare: dense spots and int64 coordinates.
+  auto& pairs = s.pairs;
+  pairs.resize(n);
   for (std::size_t i = 0; i < n; ++i) pairs[i] = {s.d2[i], s.candidate[i]};
   if (wanted < n) {
     // Everything that ties with the last one wanted must stay in.
@@ -118,9 +141,9 @@ void order_ties(const PointTree& tree, const CandidateSet<T>& candidates, Neares
 }  // namespace
 
 template <class T>
-void select_nearest(const PointTree& tree, const CandidateSet<T>& candidates, std::size_t scanned,
-                    const NearestQuery<T>& query, NearestScratch<T>& scratch, Neighbours& found) {
-  const std::size_t room = simd::padded(scanned) + simd::kPadding;
+void select_nearest(const PointTree& tree, const CandidateSet<T>& candidates, const NearestQuery<T>& query,
+                    NearestScratch<T>& scratch, Neighbours& found) {
+  const std::size_t room = simd::padded(candidates.count) + simd::kPadding;
   if (scratch.d2.size() < room) {
     scratch.d2.resize(room);
     scratch.candidate.resize(room);
@@ -131,7 +154,7 @@ void select_nearest(const PointTree& tree, const CandidateSet<T>& candidates, st
   T limit = std::min(query.guess_d2, query.max_d2);
   std::size_t n = 0;
   for (;;) {
-    n = collect(candidates, scanned, query, limit, scratch.d2.data(), scratch.candidate.data());
+    n = collect(candidates, query, limit, scratch.d2.data(), scratch.candidate.data());
     if (n > query.k || limit >= query.max_d2) break;
     // On a surface the number grows with the square of the distance; a little more, so that the next try is the last.
     const double growth = std::clamp(1.3 * static_cast<double>(query.k + 1) / static_cast<double>(n + 1), 1.5, 8.0);
@@ -163,11 +186,11 @@ void select_nearest(const PointTree& tree, const CandidateSet<T>& candidates, st
   found.last_d2 = found.count > 0 ? static_cast<std::uint64_t>(scratch.sorted_d2[found.count]) : 0;
 }
 
-template void select_nearest(const PointTree&, const CandidateSet<float>&, std::size_t, const NearestQuery<float>&,
+template void select_nearest(const PointTree&, const CandidateSet<float>&, const NearestQuery<float>&,
                              NearestScratch<float>&, Neighbours&);
-template void select_nearest(const PointTree&, const CandidateSet<double>&, std::size_t, const NearestQuery<double>&,
+template void select_nearest(const PointTree&, const CandidateSet<double>&, const NearestQuery<double>&,
                              NearestScratch<double>&, Neighbours&);
-template void select_nearest(const PointTree&, const CandidateSet<std::int64_t>&, std::size_t,
-                             const NearestQuery<std::int64_t>&, NearestScratch<std::int64_t>&, Neighbours&);
+template void select_nearest(const PointTree&, const CandidateSet<std::int64_t>&, const NearestQuery<std::int64_t>&,
+                             NearestScratch<std::int64_t>&, Neighbours&);
 
 }  // namespace arris

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "features/candidate_set.h"
@@ -39,12 +40,13 @@ struct NearestScratch {
   std::vector<std::int32_t> rank;
   std::vector<std::uint32_t> sorted;
   std::vector<T> sorted_d2;
+  std::vector<std::pair<T, std::uint32_t>> pairs;
 };
 
-/// Looks among the first `scanned` candidates, the query itself being one of them. Fills min(k, those within max_d2) neighbours;
-/// ties are resolved by id. Complexity: O(scanned + s²/16), s being the number within the guess.
+/// The query itself is one of the candidates. Fills min(k, those within max_d2) neighbours; ties are resolved by id. Complexity:
+/// O(candidates + s²/16), s being the number within the guess.
 template <class T>
-void select_nearest(const PointTree& tree, const CandidateSet<T>& candidates, std::size_t scanned,
-                    const NearestQuery<T>& query, NearestScratch<T>& scratch, Neighbours& found);
+void select_nearest(const PointTree& tree, const CandidateSet<T>& candidates, const NearestQuery<T>& query,
+                    NearestScratch<T>& scratch, Neighbours& found);
 
 }  // namespace arris

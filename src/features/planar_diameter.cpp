@@ -17,11 +17,10 @@ double squared_length(const PlanarPoint& a, const PlanarPoint& b) {
 bool canonical_less(const PlanarPoint& a, const PlanarPoint& b) { return a.d2 != b.d2 ? a.d2 < b.d2 : a.id < b.id; }
 
 /// Replaces sorted, distinct points by their hull, counter-clockwise, without collinear points.
-void keep_hull(std::vector<PlanarPoint>& points) {
+void keep_hull(std::vector<PlanarPoint>& points, std::vector<PlanarPoint>& hull) {
   const std::size_t n = points.size();
   if (n < 3) return;
-  std::vector<PlanarPoint> hull;
-  hull.reserve(2 * n);
+  hull.clear();
   const auto extend = [&hull](const PlanarPoint& p, std::size_t floor) {
     while (hull.size() >= floor + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0.0) hull.pop_back();
     hull.push_back(p);
@@ -30,7 +29,7 @@ void keep_hull(std::vector<PlanarPoint>& points) {
   const std::size_t upper = hull.size() - 1;
   for (std::size_t i = n - 1; i-- > 0;) extend(points[i], upper);
   hull.pop_back();
-  points.assign(hull.begin(), hull.end());
+  points.swap(hull);
 }
 
 struct Longest {
@@ -50,7 +49,7 @@ struct Longest {
 
 }  // namespace
 
-Diameter planar_diameter(std::vector<PlanarPoint>& points) {
+Diameter planar_diameter(std::vector<PlanarPoint>& points, std::vector<PlanarPoint>& hull) {
   std::sort(points.begin(), points.end(), [](const PlanarPoint& a, const PlanarPoint& b) {
     if (a.x != b.x) return a.x < b.x;
     if (a.y != b.y) return a.y < b.y;
@@ -58,7 +57,7 @@ Diameter planar_diameter(std::vector<PlanarPoint>& points) {
   });
   const auto same_place = [](const PlanarPoint& a, const PlanarPoint& b) { return a.x == b.x && a.y == b.y; };
   points.erase(std::unique(points.begin(), points.end(), same_place), points.end());
-  keep_hull(points);
+  keep_hull(points, hull);
   Longest longest;
   const std::size_t h = points.size();
   if (h == 2) longest.offer(points[0], points[1]);

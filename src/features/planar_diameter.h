@@ -19,7 +19,8 @@ struct Diameter {
 };
 
 /// Convex hull (monotone chain) and rotating calipers. Ties of the computed length go to the pair that is first in canonical order.
-/// O(n log n). `points` is reordered and cut down to its hull. Law: bits depend on the set only, not on its order.
-Diameter planar_diameter(std::vector<PlanarPoint>& points);
+/// O(n log n). `points` is reordered and cut down to its hull; `hull` is reusable memory. Law: bits depend on the set only, not on
+/// its order.
+Diameter planar_diameter(std::vector<PlanarPoint>& points, std::vector<PlanarPoint>& hull);
 
 }  // namespace arris

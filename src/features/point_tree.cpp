@@ -79,7 +79,7 @@ double squared_distance(const ClosedBox& a, const ClosedBox& b) {
 
 PointTree::PointTree(std::span<const LatticePoint> positions, std::span<const std::uint64_t> ids) {
   const std::size_t n = positions.size();
-  while ((n >> depth_) > kBucketPoints) ++depth_;
+  while ((n >> depth_) >= kBucketPoints) ++depth_;
   boxes_.resize(2 * buckets());
   std::vector<Item> items(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -111,17 +111,6 @@ PointTree::PointTree(std::span<const LatticePoint> positions, std::span<const st
       ids_[i] = ids[items[i].entry];
     }
   });
-}
-
-ClosedBox PointTree::bounds(std::size_t begin, std::size_t end) const {
-  ClosedBox box;
-  const std::int32_t* axes[3] = {x_.data(), y_.data(), z_.data()};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto [low, high] = std::minmax_element(axes[axis] + begin, axes[axis] + end);
-    box.min[axis] = *low;
-    box.max[axis] = *high;
-  }
-  return box;
 }
 
 }  // namespace arris

@@ -63,8 +63,6 @@ class PointTree {
     }
   }
 
-  ClosedBox bounds(std::size_t begin, std::size_t end) const;  ///< Of points in tree order, begin < end.
-
  private:
   int depth_ = 0;
   std::vector<std::int32_t> x_, y_, z_;

@@ -43,9 +43,9 @@ Vector3 product(const SymmetricMatrix<double>& a, const Vector3& v) {
 
 }  // namespace
 
-PrincipalFrame principal_frame(const SymmetricMatrix<double>& a) {
+PrincipalFrame principal_frame(const SymmetricMatrix<double>& a, const Eigenvalues<double>& values) {
   PrincipalFrame frame;
-  frame.values = eigenvalues_of(a);
+  frame.values = values;
   const auto& [l1, l2, l3] = frame.values;
   if (!(l1 > l3)) {
     frame.e1 = {1.0, 0.0, 0.0};

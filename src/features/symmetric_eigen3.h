@@ -71,6 +71,8 @@ struct PrincipalFrame {
 };
 
 /// Any finite matrix; multiples of the identity give the coordinate axes.
-PrincipalFrame principal_frame(const SymmetricMatrix<double>& a);
+/// @param values  eigenvalues_of(a).
+PrincipalFrame principal_frame(const SymmetricMatrix<double>& a, const Eigenvalues<double>& values);
+inline PrincipalFrame principal_frame(const SymmetricMatrix<double>& a) { return principal_frame(a, eigenvalues_of(a)); }
 
 }  // namespace arris

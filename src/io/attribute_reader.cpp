@@ -18,20 +18,32 @@ constexpr std::size_t kLasIntensityOffset = 12;
 
 double load_las_value(std::uint8_t type, const std::byte* at) {
   switch (type) {
-    case 1: return static_cast<double>(load<std::uint8_t>(at));
-    case 2: return static_cast<double>(load<std::int8_t>(at));
-    case 3: return static_cast<double>(load<std::uint16_t>(at));
-    case 4: return static_cast<double>(load<std::int16_t>(at));
-    case 5: return static_cast<double>(load<std::uint32_t>(at));
-    case 6: return static_cast<double>(load<std::int32_t>(at));
-    case 7: return static_cast<double>(load<std::uint64_t>(at));
-    case 8: return static_cast<double>(load<std::int64_t>(at));
-    case 9: return static_cast<double>(load<float>(at));
-    default: return load<double>(at);
+    case 1:
+      return static_cast<double>(load<std::uint8_t>(at));
+    case 2:
+      return static_cast<double>(load<std::int8_t>(at));
+    case 3:
+      return static_cast<double>(load<std::uint16_t>(at));
+    case 4:
+      return static_cast<double>(load<std::int16_t>(at));
+    case 5:
+      return static_cast<double>(load<std::uint32_t>(at));
+    case 6:
+      return static_cast<double>(load<std::int32_t>(at));
+    case 7:
+      return static_cast<double>(load<std::uint64_t>(at));
+    case 8:
+      return static_cast<double>(load<std::int64_t>(at));
+    case 9:
+      return static_cast<double>(load<float>(at));
+    default:
+      return load<double>(at);
   }
 }
 
-constexpr bool is_scalar_type(std::uint8_t type) { return type >= 1 && type <= 10; }
+constexpr bool is_scalar_type(std::uint8_t type) {
+  return type >= 1 && type <= 10;
+}
 
 }  // namespace
 
@@ -40,7 +52,7 @@ struct AttributeReader::Impl {
     std::size_t offset;
     std::uint8_t type;
   };
-  std::vector<std::optional<Field>> las;                 ///< Per name, LAS only.
+  std::vector<std::optional<Field>> las;                  ///< Per name, LAS only.
   std::vector<std::unique_ptr<PlyRecordWalker>> walkers;  ///< Per name, PLY only; null if absent.
 
   void open_las(const InputFile& file, const std::vector<std::string>& names) {
@@ -62,7 +74,8 @@ struct AttributeReader::Impl {
       int property = header.vertices().find(name);
       if (property < 0) property = header.vertices().find("scalar_" + name);
       walkers.push_back(property < 0 ? nullptr
-                                     : std::make_unique<PlyRecordWalker>(header.format, header.vertices(), std::vector<int>{property}));
+                                     : std::make_unique<PlyRecordWalker>(header.format, header.vertices(),
+                                                                         std::vector<int>{property}));
     }
   }
 };
@@ -97,7 +110,8 @@ void AttributeReader::read(const PointBatch& batch, std::size_t index, std::vect
       continue;
     }
     PlyRecordWalker& walker = *impl_->walkers[index];
-    if (walker.walk(record, true) != PlyRecordWalker::Result::kDone) throw InputError("a PLY record changed while it was read");
+    if (walker.walk(record, true) != PlyRecordWalker::Result::kDone)
+      throw InputError("a PLY record changed while it was read");
     values[i] = walker.value(0);
   }
 }

@@ -22,7 +22,8 @@ class AttributeReader {
 
   /// True if the file has the attribute names[index].
   bool has(std::size_t index) const;
-  /// Values of names[index] for a batch of this file that was read with records; `values` gets batch.count entries. Needs has().
+  /// Values of names[index] for a batch of this file that was read with records; `values` gets batch.count entries.
+  /// Needs has().
   void read(const PointBatch& batch, std::size_t index, std::vector<double>& values);
 
  private:

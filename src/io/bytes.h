@@ -11,10 +11,10 @@
 
 namespace arris::io {
 
-/// The value with its bytes in reverse order. Floating-point values are never reversed as such, so that no NaN is altered.
+/// The value with its bytes in reverse order. Floating-point values are never reversed as such, so that no NaN is
+/// altered.
 template <typename T>
-  requires std::is_unsigned_v<T>
-T byte_reversed(T value) {
+requires std::is_unsigned_v<T> T byte_reversed(T value) {
   if constexpr (sizeof(T) == 1) return value;
   if constexpr (sizeof(T) == 2) return __builtin_bswap16(value);
   if constexpr (sizeof(T) == 4) return __builtin_bswap32(value);
@@ -23,10 +23,9 @@ T byte_reversed(T value) {
 
 namespace detail {
 template <std::size_t kSize>
-using UnsignedOf =
-    std::conditional_t<kSize == 1, std::uint8_t,
-                       std::conditional_t<kSize == 2, std::uint16_t,
-                                          std::conditional_t<kSize == 4, std::uint32_t, std::uint64_t>>>;
+using UnsignedOf = std::conditional_t<
+    kSize == 1, std::uint8_t,
+    std::conditional_t<kSize == 2, std::uint16_t, std::conditional_t<kSize == 4, std::uint32_t, std::uint64_t>>>;
 }  // namespace detail
 
 /// Reads sizeof(T) bytes at any address.

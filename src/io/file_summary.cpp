@@ -16,11 +16,14 @@ namespace {
 constexpr std::size_t kMaxRecords = 1000;  ///< Listed; the rest is counted.
 constexpr std::size_t kMaxComments = 100;
 
-std::string triple(const std::array<double, 3>& v) { return fmt::format("{} {} {}", v[0], v[1], v[2]); }
+std::string triple(const std::array<double, 3>& v) {
+  return fmt::format("{} {} {}", v[0], v[1], v[2]);
+}
 
 /// A GUID as its text form: three little-endian numbers and eight bytes.
 std::string guid(const std::byte* at) {
-  std::string text = fmt::format("{:08x}-{:04x}-{:04x}-", load<std::uint32_t>(at), load<std::uint16_t>(at + 4), load<std::uint16_t>(at + 6));
+  std::string text = fmt::format("{:08x}-{:04x}-{:04x}-", load<std::uint32_t>(at), load<std::uint16_t>(at + 4),
+                                 load<std::uint16_t>(at + 6));
   for (std::size_t i = 8; i < 16; ++i) text += fmt::format("{}{:02x}", i == 10 ? "-" : "", load<std::uint8_t>(at + i));
   return text;
 }
@@ -72,18 +75,20 @@ void add_las_header(const LasFile& las, FileSummary& summary) {
 void add_records(const std::vector<LasVlr>& records, FileSummary& summary) {
   for (const LasVlr& record : records) {
     if (summary.records.size() == kMaxRecords) {
-      summary.problems.push_back({"many-records", fmt::format("only the first {} variable-length records are listed", kMaxRecords)});
+      summary.problems.push_back(
+          {"many-records", fmt::format("only the first {} variable-length records are listed", kMaxRecords)});
       return;
     }
-    summary.records.push_back({printable(record.user_id), record.record_id, printable(record.description), record.payload_bytes, record.extended});
+    summary.records.push_back({printable(record.user_id), record.record_id, printable(record.description),
+                               record.payload_bytes, record.extended});
   }
 }
 
 void add_extra_bytes(const InputFile& file, const LasFile& las, FileSummary& summary) {
   const ExtraBytes extra = read_extra_bytes(file, las);
   for (const ExtraAttribute& attribute : extra.attributes) {
-    summary.attributes.push_back(
-        {printable(attribute.name), extra_type_name(attribute.type), printable(attribute.description), attribute.size_bytes});
+    summary.attributes.push_back({printable(attribute.name), extra_type_name(attribute.type),
+                                  printable(attribute.description), attribute.size_bytes});
   }
   if (extra.present_bytes > extra.described_bytes) {
     summary.attributes.push_back({"", extra_type_name(0), "", extra.present_bytes - extra.described_bytes});
@@ -109,7 +114,8 @@ void summarize_ply(FileSummary& summary) {
   for (const std::string& line : header.lines) {
     const std::size_t end = line.find(' ');
     const std::string word = line.substr(0, end);
-    if ((word != "comment" && word != "obj_info") || end == std::string::npos || summary.header.size() >= kMaxComments) continue;
+    if ((word != "comment" && word != "obj_info") || end == std::string::npos || summary.header.size() >= kMaxComments)
+      continue;
     summary.header.emplace_back(word, printable(line.substr(end + 1)));
   }
   for (const PlyElement& element : header.elements) {
@@ -119,8 +125,10 @@ void summarize_ply(FileSummary& summary) {
   const bool binary = header.format != PlyFormat::kAscii;
   for (const PlyProperty& p : header.vertices().properties) {
     if (summary.attributes.size() >= kMaxRecords) break;
-    std::string type = p.is_list ? fmt::format("list {} {}", type_name(p.count_type), type_name(p.type)) : type_name(p.type);
-    summary.attributes.push_back({printable(p.name), std::move(type), "", binary && !p.is_list ? size_bytes(p.type) : 0});
+    std::string type =
+        p.is_list ? fmt::format("list {} {}", type_name(p.count_type), type_name(p.type)) : type_name(p.type);
+    summary.attributes.push_back(
+        {printable(p.name), std::move(type), "", binary && !p.is_list ? size_bytes(p.type) : 0});
   }
 }
 

@@ -41,8 +41,8 @@ struct FileSummary {
   std::vector<Problem> problems;
 };
 
-/// Reads the structure of a file, no points (PLY files whose vertices lie behind lists are read up to the vertices). Throws
-/// InputError / IoError as open_point_source() does.
+/// Reads the structure of a file, no points (PLY files whose vertices lie behind lists are read up to the vertices).
+/// Throws InputError / IoError as open_point_source() does.
 FileSummary summarize_file(const std::filesystem::path& path);
 
 }  // namespace arris::io

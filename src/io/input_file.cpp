@@ -18,7 +18,9 @@ namespace {
 
 constexpr std::size_t kWindowBytes = std::size_t{1} << 20;
 
-std::string reason(int error) { return std::generic_category().message(error); }
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
 
 }  // namespace
 
@@ -34,15 +36,19 @@ InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
   }
   if (!S_ISREG(status.st_mode)) {
     ::close(descriptor_);
-    throw InputError(fmt::format("{}: is not a regular file; points are read several times, so save them to a file first",
-                                 name()));
+    throw InputError(
+        fmt::format("{}: is not a regular file; points are read several times, so save them to a file first", name()));
   }
   size_bytes_ = static_cast<std::uint64_t>(status.st_size);
 }
 
-InputFile::~InputFile() { ::close(descriptor_); }
+InputFile::~InputFile() {
+  ::close(descriptor_);
+}
 
-std::string InputFile::name() const { return printable(path_.string(), 1000); }
+std::string InputFile::name() const {
+  return printable(path_.string(), 1000);
+}
 
 std::size_t InputFile::read_some(std::uint64_t offset, std::span<std::byte> bytes) const {
   std::size_t done = 0;
@@ -60,8 +66,9 @@ std::size_t InputFile::read_some(std::uint64_t offset, std::span<std::byte> byte
 void InputFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
   const std::size_t done = read_some(offset, bytes);
   if (done == bytes.size()) return;
-  throw InputError(fmt::format("{}: ends at byte {}, but had {} bytes when it was opened; it was cut short while being read",
-                               name(), offset + done, size_bytes_));
+  throw InputError(
+      fmt::format("{}: ends at byte {}, but had {} bytes when it was opened; it was cut short while being read", name(),
+                  offset + done, size_bytes_));
 }
 
 void FileWindow::seek(std::uint64_t offset) {

@@ -10,8 +10,8 @@
 
 namespace arris::io {
 
-/// Read-only regular file. Its size is taken once, at opening; a file that turns out shorter later was cut short while we read
-/// it, which is an InputError. Failing system calls are IoErrors. Reading is const and thread-safe.
+/// Read-only regular file. Its size is taken once, at opening; a file that turns out shorter later was cut short while
+/// we read it, which is an InputError. Failing system calls are IoErrors. Reading is const and thread-safe.
 class InputFile {
  public:
   explicit InputFile(std::filesystem::path path);
@@ -38,8 +38,8 @@ class InputFile {
 /// A window of unread bytes that slides over a file, for records whose length is known only once they have been read.
 class FileWindow {
  public:
-  /// Longest record that can be held. Real records are smaller by orders of magnitude; this bounds the memory that a damaged
-  /// list length can ask for.
+  /// Longest record that can be held. Real records are smaller by orders of magnitude; this bounds the memory that a
+  /// damaged list length can ask for.
   static constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
 
   explicit FileWindow(const InputFile& file) : file_(file) {}

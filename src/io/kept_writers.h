@@ -26,8 +26,8 @@ std::unique_ptr<KeptPointWriter> create_ply_kept_writer(const KeptJob& job);
 std::unique_ptr<KeptPointWriter> create_las_to_ply_writer(const KeptJob& job);
 std::unique_ptr<KeptPointWriter> create_ply_to_las_writer(const KeptJob& job);
 
-/// Columns whose names are already taken by attributes of the input get "_2", "_3", ... (a result of ours fed to us again); each
-/// renaming is added to `warnings`.
+/// Columns whose names are already taken by attributes of the input get "_2", "_3", ... (a result of ours fed to us
+/// again); each renaming is added to `warnings`.
 std::vector<ColumnSpec> rename_taken_columns(std::vector<ColumnSpec> columns, const std::vector<std::string>& taken,
                                              std::vector<std::string>& warnings);
 

@@ -15,21 +15,23 @@ constexpr std::size_t kMaxPayload = 65535;
 
 /// GeoTIFF keys (OGC GeoTIFF 1.1): location 34737 means text, 0 means that the value is in the entry itself.
 constexpr std::uint16_t kTextLocation = 34737;
-constexpr std::uint16_t kGeneralCitation = 1026, kGeographicCode = 2048, kGeographicCitation = 2049, kProjectedCode = 3072,
-                        kProjectedCitation = 3073;
+constexpr std::uint16_t kGeneralCitation = 1026, kGeographicCode = 2048, kGeographicCitation = 2049,
+                        kProjectedCode = 3072, kProjectedCitation = 3073;
 constexpr std::uint16_t kFirstPrivateCode = 32767;
 
 std::vector<std::byte> find_payload(const InputFile& file, const LasFile& las, std::uint16_t record_id) {
   for (const auto* records : {&las.vlrs, &las.evlrs}) {
     for (const LasVlr& record : *records) {
-      if (record.is("LASF_Projection", record_id) && record.payload_bytes > 0) return read_payload(file, record, kMaxPayload);
+      if (record.is("LASF_Projection", record_id) && record.payload_bytes > 0)
+        return read_payload(file, record, kMaxPayload);
     }
   }
   return {};
 }
 
 std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.back() == '\0' || text.back() == '|' || text.back() == ' ' || text.back() == '\n')) text.remove_suffix(1);
+  while (!text.empty() && (text.back() == '\0' || text.back() == '|' || text.back() == ' ' || text.back() == '\n'))
+    text.remove_suffix(1);
   return text;
 }
 
@@ -52,7 +54,8 @@ std::string from_geotiff(const std::vector<std::byte>& keys, const std::vector<s
     if (location != kTextLocation || !cites || value >= texts.size()) continue;
     const std::string_view all(reinterpret_cast<const char*>(texts.data()), texts.size());
     const std::string_view text = trimmed(all.substr(value, count));
-    if (!text.empty() && citation.find(text) == std::string::npos) citation += (citation.empty() ? "" : "; ") + std::string(text);
+    if (!text.empty() && citation.find(text) == std::string::npos)
+      citation += (citation.empty() ? "" : "; ") + std::string(text);
   }
   const std::uint16_t code = projected != 0 ? projected : geographic;
   const bool registered = code != 0 && code < kFirstPrivateCode;

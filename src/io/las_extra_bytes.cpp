@@ -16,7 +16,7 @@ constexpr std::size_t kMaxPayload = 65535;
 constexpr std::uint16_t kExtraBytesRecord = 4;
 /// One entry can cover at most this many undocumented bytes: their number is kept in one byte.
 constexpr std::size_t kMaxUndocumentedBytes = 255;
-constexpr std::array<const char*, 11> kTypeNames{"undocumented", "uint8", "int8",   "uint16", "int16", "uint32",
+constexpr std::array<const char*, 11> kTypeNames{"undocumented", "uint8",  "int8",  "uint16", "int16", "uint32",
                                                  "int32",        "uint64", "int64", "float",  "double"};
 constexpr std::array<std::size_t, 11> kTypeBytes{0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
 
@@ -25,10 +25,14 @@ constexpr std::size_t kType = 2, kOptions = 3, kName = 4, kDescription = 160;
 
 std::uint8_t type_code(ColumnType type) {
   switch (type) {
-    case ColumnType::kUint8: return 1;
-    case ColumnType::kUint16: return 3;
-    case ColumnType::kUint32: return 5;
-    case ColumnType::kFloat32: break;
+    case ColumnType::kUint8:
+      return 1;
+    case ColumnType::kUint16:
+      return 3;
+    case ColumnType::kUint32:
+      return 5;
+    case ColumnType::kFloat32:
+      break;
   }
   return 9;
 }
@@ -56,8 +60,10 @@ void read_attributes(ExtraBytes& extra, std::size_t first_offset) {
     attribute.type = load<std::uint8_t>(entry + kType);
     if (attribute.type > 30) {
       extra.valid = false;
-      extra.problems.push_back({"extra-bytes-type", fmt::format("extra-bytes entry {} has the unknown type {}; all extra bytes are taken as undocumented",
-                                                                at / kExtraBytesEntryBytes + 1, attribute.type)});
+      extra.problems.push_back(
+          {"extra-bytes-type",
+           fmt::format("extra-bytes entry {} has the unknown type {}; all extra bytes are taken as undocumented",
+                       at / kExtraBytesEntryBytes + 1, attribute.type)});
       return;
     }
     attribute.name = field_text(entry + kName, 32);
@@ -69,12 +75,15 @@ void read_attributes(ExtraBytes& extra, std::size_t first_offset) {
   }
   if (extra.described_bytes > extra.present_bytes) {
     extra.valid = false;
-    extra.problems.push_back({"extra-bytes-mismatch", fmt::format("{} extra bytes are described, {} are present; all are taken as undocumented",
-                                                                  extra.described_bytes, extra.present_bytes)});
+    extra.problems.push_back({"extra-bytes-mismatch",
+                              fmt::format("{} extra bytes are described, {} are present; all are taken as undocumented",
+                                          extra.described_bytes, extra.present_bytes)});
   }
 }
 
-void append(std::vector<std::byte>& to, const std::vector<std::byte>& from) { to.insert(to.end(), from.begin(), from.end()); }
+void append(std::vector<std::byte>& to, const std::vector<std::byte>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
 
 }  // namespace
 
@@ -84,7 +93,9 @@ std::string extra_type_name(std::uint8_t type) {
   return fmt::format("{}[{}]", kTypeNames[(type - 1U) % 10U + 1U], (type - 1U) / 10U + 1U);
 }
 
-bool is_extra_bytes_record(const LasVlr& record) { return record.is("LASF_Spec", kExtraBytesRecord); }
+bool is_extra_bytes_record(const LasVlr& record) {
+  return record.is("LASF_Spec", kExtraBytesRecord);
+}
 
 ExtraBytes read_extra_bytes(const InputFile& file, const LasFile& las) {
   ExtraBytes extra;
@@ -96,8 +107,9 @@ ExtraBytes read_extra_bytes(const InputFile& file, const LasFile& las) {
       std::vector<std::byte> payload = read_payload(file, record, kMaxPayload);
       if (record.payload_bytes % kExtraBytesEntryBytes != 0) {
         extra.whole_entries = false;
-        extra.problems.push_back({"extra-bytes-length", fmt::format("an extra-bytes record has {} bytes, no multiple of {}",
-                                                                    record.payload_bytes, kExtraBytesEntryBytes)});
+        extra.problems.push_back(
+            {"extra-bytes-length", fmt::format("an extra-bytes record has {} bytes, no multiple of {}",
+                                               record.payload_bytes, kExtraBytesEntryBytes)});
       }
       payload.resize(payload.size() / kExtraBytesEntryBytes * kExtraBytesEntryBytes);
       append(extra.entries, payload);
@@ -137,8 +149,9 @@ ExtraBytesPlan plan_extra_bytes(const InputFile& file, const LasFile& las, const
   if (columns.empty()) return plan;
   const std::size_t row_bytes = row_size_bytes(columns);
   if (row_bytes > kLasMaxRecordBytes - las.header.record_bytes) {
-    throw ConfigError(fmt::format("{}: records of {} bytes cannot take {} more (limit {}); write PLY or ask for fewer columns",
-                                  file.name(), las.header.record_bytes, row_bytes, kLasMaxRecordBytes));
+    throw ConfigError(
+        fmt::format("{}: records of {} bytes cannot take {} more (limit {}); write PLY or ask for fewer columns",
+                    file.name(), las.header.record_bytes, row_bytes, kLasMaxRecordBytes));
   }
   const ExtraBytes extra = read_extra_bytes(file, las);
   std::vector<std::byte> additions;
@@ -156,18 +169,21 @@ ExtraBytesPlan plan_extra_bytes(const InputFile& file, const LasFile& las, const
     return plan;
   }
   if (!sound) {
-    // Descriptions that cannot be extended in place are rewritten in one record; the old ones stay, marked as superseded.
+    // Descriptions that cannot be extended in place are rewritten in one record; the old ones stay, marked as
+    // superseded.
     plan.supersede_vlrs = plan.append_to >= 0;
     plan.supersede_evlrs = in_evlrs;
     if (extra.valid) append(plan.new_payload, extra.entries);
-    plan.warnings.push_back(fmt::format("{}: its extra-bytes description cannot be extended as it is; it is kept as superseded and replaced",
-                                        file.name()));
+    plan.warnings.push_back(fmt::format(
+        "{}: its extra-bytes description cannot be extended as it is; it is kept as superseded and replaced",
+        file.name()));
   }
   plan.append_to = -1;
   append(plan.new_payload, additions);
   if (plan.new_payload.size() > kMaxPayload) {
-    throw ConfigError(fmt::format("{}: describing {} extra attributes exceeds the limit of {} per record; write PLY or ask for fewer columns",
-                                  file.name(), plan.new_payload.size() / kExtraBytesEntryBytes, kMaxPayload / kExtraBytesEntryBytes));
+    throw ConfigError(fmt::format(
+        "{}: describing {} extra attributes exceeds the limit of {} per record; write PLY or ask for fewer columns",
+        file.name(), plan.new_payload.size() / kExtraBytesEntryBytes, kMaxPayload / kExtraBytesEntryBytes));
   }
   return plan;
 }

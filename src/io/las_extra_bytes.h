@@ -1,5 +1,6 @@
 #pragma once
-/// @file Extra bytes of LAS points: reading their descriptions and adding ours (LAS 1.4 R15, "Extra Bytes", LASF_Spec / 4).
+/// @file Extra bytes of LAS points: reading their descriptions and adding ours (LAS 1.4 R15, "Extra Bytes", LASF_Spec /
+/// 4).
 
 #include <cstddef>
 #include <cstdint>
@@ -31,8 +32,8 @@ struct ExtraBytes {
   std::vector<std::byte> entries;          ///< Whole 192-byte entries, concatenated.
   std::size_t described_bytes = 0;
   std::size_t present_bytes = 0;  ///< Record length minus size of the point format.
-  /// False if the descriptions cannot be trusted: they claim more bytes than there are or use unknown types. All extra bytes
-  /// are then undocumented.
+  /// False if the descriptions cannot be trusted: they claim more bytes than there are or use unknown types. All extra
+  /// bytes are then undocumented.
   bool valid = true;
   bool whole_entries = true;  ///< False if a record's length is no multiple of 192.
   std::vector<Problem> problems;
@@ -43,11 +44,11 @@ bool is_extra_bytes_record(const LasVlr& record);
 
 /// How to describe additional columns so that they land behind everything that is there already.
 struct ExtraBytesPlan {
-  int append_to = -1;                  ///< Index of the VLR whose payload `appended` extends, or -1.
+  int append_to = -1;  ///< Index of the VLR whose payload `appended` extends, or -1.
   std::vector<std::byte> appended;
   std::vector<std::byte> new_payload;  ///< Payload of an additional VLR; empty if none is needed.
-  bool supersede_vlrs = false;         ///< Mark the present VLRs as superseded (LASF_Spec / 7): new_payload replaces them.
-  bool supersede_evlrs = false;        ///< Likewise the descriptions among the extended records.
+  bool supersede_vlrs = false;   ///< Mark the present VLRs as superseded (LASF_Spec / 7): new_payload replaces them.
+  bool supersede_evlrs = false;  ///< Likewise the descriptions among the extended records.
   std::vector<std::string> warnings;
 };
 /// Throws ConfigError if the columns do not fit the format's limits.

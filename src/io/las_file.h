@@ -57,9 +57,10 @@ struct LasFile {
   std::vector<Problem> problems;
 };
 
-/// Reads and checks the structure. Throws InputError for files whose points cannot be trusted: bad magic or version, compressed
-/// points, unknown point format, record shorter than its format, unusable scale or offset, points beyond the end of the file.
-/// Everything else that is wrong becomes a problem. Memory is bounded: no count of the file is believed before it is seen.
+/// Reads and checks the structure. Throws InputError for files whose points cannot be trusted: bad magic or version,
+/// compressed points, unknown point format, record shorter than its format, unusable scale or offset, points beyond the
+/// end of the file. Everything else that is wrong becomes a problem. Memory is bounded: no count of the file is
+/// believed before it is seen.
 LasFile read_las_file(const InputFile& file);
 
 /// Payload of a record, at most `limit_bytes` of it.
@@ -72,12 +73,12 @@ bool is_crs_record(const LasVlr& record);
 struct PointCounts {
   std::uint32_t legacy = 0;
   std::optional<std::uint64_t> extended;  ///< Absent before 1.4.
-  std::uint64_t room = 0;                 ///< Whole records between the first point and the next structure or the end of file.
-  std::uint64_t file_room = 0;            ///< Whole records between the first point and the end of the file.
+  std::uint64_t room = 0;       ///< Whole records between the first point and the next structure or the end of file.
+  std::uint64_t file_room = 0;  ///< Whole records between the first point and the end of the file.
 };
 
-/// Where the header's counts agree, or one of them is zero, the count is theirs. Where they disagree, the one that fills the room
-/// wins, else the 32-bit one if it fits (as the specification asks), else the 64-bit one.
+/// Where the header's counts agree, or one of them is zero, the count is theirs. Where they disagree, the one that
+/// fills the room wins, else the 32-bit one if it fits (as the specification asks), else the 64-bit one.
 std::uint64_t choose_point_count(const PointCounts& counts);
 
 }  // namespace arris::io

@@ -46,7 +46,8 @@ LasGrid choose_las_grid(const WorldExtent& extent) {
   }
   while (exponent <= kCoarsestExponent && reach / power_of_ten(exponent) > kMostSteps) ++exponent;
   if (exponent > kCoarsestExponent || !std::isfinite(reach)) {
-    throw ConfigError(fmt::format("coordinates up to {} from their middle do not fit LAS integers; remove outliers or write PLY", reach));
+    throw ConfigError(fmt::format(
+        "coordinates up to {} from their middle do not fit LAS integers; remove outliers or write PLY", reach));
   }
   grid.scale = power_of_ten(exponent);
   return grid;

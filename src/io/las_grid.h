@@ -23,9 +23,10 @@ struct LasGrid {
   }
 };
 
-/// Scale 0.0001 where that is a sensible resolution, otherwise another power of ten: finer where the longest side is below 10
-/// units (keeping at least 10^5 steps over it), coarser where int32 would not hold the extent. The offset is the whole number
-/// nearest to the middle, or 0 where coordinates stay below 1000. Throws ConfigError if no scale up to 10^6 fits.
+/// Scale 0.0001 where that is a sensible resolution, otherwise another power of ten: finer where the longest side is
+/// below 10 units (keeping at least 10^5 steps over it), coarser where int32 would not hold the extent. The offset is
+/// the whole number nearest to the middle, or 0 where coordinates stay below 1000. Throws ConfigError if no scale up to
+/// 10^6 fits.
 LasGrid choose_las_grid(const WorldExtent& extent);
 
 }  // namespace arris::io

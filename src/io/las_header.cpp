@@ -22,28 +22,33 @@ std::vector<std::byte> read_raw_header(const InputFile& file, std::vector<Proble
   constexpr std::size_t kLeast = kLasHeaderBytes[0];
   std::vector<std::byte> raw(kLeast);
   const std::size_t got = file.read_some(0, raw);
-  if (got < 4 || field_text(raw.data(), 4) != "LASF") refuse(file, "is not a LAS file: it does not begin with \"LASF\"");
+  if (got < 4 || field_text(raw.data(), 4) != "LASF")
+    refuse(file, "is not a LAS file: it does not begin with \"LASF\"");
   if (got < kLeast) {
-    refuse(file, fmt::format("ends at byte {}, within the header (least size {} bytes); the file is cut short", got, kLeast));
+    refuse(file,
+           fmt::format("ends at byte {}, within the header (least size {} bytes); the file is cut short", got, kLeast));
   }
   const auto major = load<std::uint8_t>(&raw[kVersionMajor]);
   const auto minor = load<std::uint8_t>(&raw[kVersionMinor]);
   if (major != 1 || minor > kLasNewestMinor) {
-    refuse(file, fmt::format("bytes 24-25 declare LAS {}.{}; versions 1.0 to 1.{} can be read", major, minor, kLasNewestMinor));
+    refuse(file, fmt::format("bytes 24-25 declare LAS {}.{}; versions 1.0 to 1.{} can be read", major, minor,
+                             kLasNewestMinor));
   }
   const std::size_t size = load<std::uint16_t>(&raw[kHeaderSize]);
   // Some 1.3 writers keep the 227 bytes of 1.2, some 1.5 ones the 375 of 1.4; what follows is then absent.
   const std::size_t least = minor >= 4 ? kLasHeaderBytes[4] : kLeast;
   if (size < least) {
-    refuse(file, fmt::format("header size {} at byte 94 is below the {} bytes of LAS 1.{}; the file is damaged", size, least,
-                             minor));
+    refuse(file, fmt::format("header size {} at byte 94 is below the {} bytes of LAS 1.{}; the file is damaged", size,
+                             least, minor));
   }
   if (size < kLasHeaderBytes[minor]) {
-    problems.push_back({"header-size", fmt::format("header size {} is below the {} bytes of LAS 1.{}; absent fields read as 0",
-                                                   size, kLasHeaderBytes[minor], minor)});
+    problems.push_back(
+        {"header-size", fmt::format("header size {} is below the {} bytes of LAS 1.{}; absent fields read as 0", size,
+                                    kLasHeaderBytes[minor], minor)});
   }
   if (size > file.size_bytes()) {
-    refuse(file, fmt::format("ends at byte {}, within the header of {} bytes; the file is cut short", file.size_bytes(), size));
+    refuse(file, fmt::format("ends at byte {}, within the header of {} bytes; the file is cut short", file.size_bytes(),
+                             size));
   }
   raw.resize(size);
   file.read(0, raw);
@@ -56,28 +61,32 @@ void check_coordinates(const InputFile& file, const LasHeader& header) {
     const double offset = header.offset[axis];
     const double reach = std::abs(scale) * 2147483648.0 + std::abs(offset);
     if (!(std::abs(scale) > 0.0) || !std::isfinite(reach)) {
-      refuse(file, fmt::format("{} scale {} (byte {}) and offset {} (byte {}) cannot give coordinates; repair the header",
-                               "xyz"[axis], scale, kScale + 8 * axis, offset, kOffset + 8 * axis));
+      refuse(file,
+             fmt::format("{} scale {} (byte {}) and offset {} (byte {}) cannot give coordinates; repair the header",
+                         "xyz"[axis], scale, kScale + 8 * axis, offset, kOffset + 8 * axis));
     }
   }
 }
 
 void check_point_format(const InputFile& file, const LasHeader& header, std::vector<Problem>& problems) {
   if (header.point_format >= kLasPointFormats) {
-    refuse(file, fmt::format("point format {} at byte 104 is unknown; formats 0 to 10 can be read", header.point_format));
+    refuse(file,
+           fmt::format("point format {} at byte 104 is unknown; formats 0 to 10 can be read", header.point_format));
   }
   const std::size_t least = kLasPointLayouts[header.point_format].size_bytes;
   if (header.record_bytes < least) {
-    refuse(file, fmt::format("record length {} at byte 105 is below the {} bytes of point format {}; the file is damaged",
-                             header.record_bytes, least, header.point_format));
+    refuse(file,
+           fmt::format("record length {} at byte 105 is below the {} bytes of point format {}; the file is damaged",
+                       header.record_bytes, least, header.point_format));
   }
   const int since = is_extended_format(header.point_format) ? 4
                     : header.point_format >= 4              ? 3
                     : header.point_format >= 2              ? 2
                                                             : 0;
   if (header.minor < since) {
-    problems.push_back({"point-format-version", fmt::format("point format {} does not exist in LAS 1.{}; read as LAS 1.{} defines it",
-                                                            header.point_format, header.minor, since)});
+    problems.push_back(
+        {"point-format-version", fmt::format("point format {} does not exist in LAS 1.{}; read as LAS 1.{} defines it",
+                                             header.point_format, header.minor, since)});
   }
 }
 
@@ -121,8 +130,9 @@ LasHeader read_las_header(const InputFile& file, std::vector<Problem>& problems)
                              header.offset_to_points, header.raw.size()));
   }
   if (header.offset_to_points > file.size_bytes()) {
-    refuse(file, fmt::format("points start at byte {}, but the file ends at byte {}; it is cut short, copy or export it again",
-                             header.offset_to_points, file.size_bytes()));
+    refuse(file, fmt::format(
+                     "points start at byte {}, but the file ends at byte {}; it is cut short, copy or export it again",
+                     header.offset_to_points, file.size_bytes()));
   }
   return header;
 }

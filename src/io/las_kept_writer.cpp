@@ -18,11 +18,12 @@ namespace arris::io {
 namespace {
 
 constexpr std::uint16_t kSupersededRecord = 7;  ///< LASF_Spec / 7
-/// Bytes behind the points that no structure refers to are carried up to this size; more is likely not meant to be there.
+/// Bytes behind the points that no structure refers to are carried up to this size; more is likely not meant to be
+/// there.
 constexpr std::uint64_t kMaxStrayTail = std::uint64_t{1} << 20;
 
-/// Kept records bit for bit, our columns behind them as extra bytes. The header, the VLRs, the gap before the points and what
-/// follows the points are copied from the first input; only counts, bounds and offsets change.
+/// Kept records bit for bit, our columns behind them as extra bytes. The header, the VLRs, the gap before the points
+/// and what follows the points are copied from the first input; only counts, bounds and offsets change.
 class LasKeptWriter final : public KeptPointWriter {
  public:
   explicit LasKeptWriter(const KeptJob& job)
@@ -43,8 +44,9 @@ class LasKeptWriter final : public KeptPointWriter {
               std::span<const std::byte> rows) override {
     assert(rows.size() == kept.size() * row_bytes_);
     if (!can_count(las_.header.minor, totals_.points + kept.size())) {
-      throw ConfigError(fmt::format("{}: LAS 1.{} cannot count more than 4 294 967 295 points; write PLY, or split the inputs",
-                                    printable(output_.path().string(), 1000), las_.header.minor));
+      throw ConfigError(
+          fmt::format("{}: LAS 1.{} cannot count more than 4 294 967 295 points; write PLY, or split the inputs",
+                      printable(output_.path().string(), 1000), las_.header.minor));
     }
     const std::byte* row = rows.data();
     for (const std::uint32_t point : kept) {
@@ -77,8 +79,9 @@ class LasKeptWriter final : public KeptPointWriter {
     gap_shift_ = output_.size_bytes() - las_.vlrs_end;
     copy_bytes(input_, las_.vlrs_end, las_.header.offset_to_points, output_);
     if (output_.size_bytes() > 0xFFFFFFFFU) {
-      throw ConfigError(fmt::format("{}: its records before the points leave no room for a description of new attributes; write PLY",
-                                    input_.name()));
+      throw ConfigError(
+          fmt::format("{}: its records before the points leave no room for a description of new attributes; write PLY",
+                      input_.name()));
     }
     const std::size_t vlrs = las_.vlrs.size() + (plan_.new_payload.empty() ? 0 : 1);
     store<std::uint32_t>(&header_[kVlrCount], static_cast<std::uint32_t>(vlrs));
@@ -130,7 +133,8 @@ class LasKeptWriter final : public KeptPointWriter {
     }
   }
 
-  /// New offset of a structure of the input. 0 (absent) for one that would lie within the points, which are not as they were.
+  /// New offset of a structure of the input. 0 (absent) for one that would lie within the points, which are not as they
+  /// were.
   std::uint64_t moved(std::uint64_t offset) const {
     if (offset >= las_.points_end) return offset + tail_shift_;
     if (offset >= las_.header.offset_to_points) return 0;
@@ -156,13 +160,16 @@ class LasKeptWriter final : public KeptPointWriter {
   LasTotals totals_;
   std::size_t row_bytes_ = 0;
   unsigned return_mask_ = 7;
-  std::uint64_t gap_shift_ = 0;   ///< How far the bytes between VLRs and points moved ...
-  std::uint64_t tail_shift_ = 0;  ///< ... and those behind the points (modulo 2^64: fewer points move them to the front).
+  std::uint64_t gap_shift_ = 0;  ///< How far the bytes between VLRs and points moved ...
+  std::uint64_t tail_shift_ =
+      0;  ///< ... and those behind the points (modulo 2^64: fewer points move them to the front).
   std::vector<std::string> warnings_;
 };
 
 }  // namespace
 
-std::unique_ptr<KeptPointWriter> create_las_kept_writer(const KeptJob& job) { return std::make_unique<LasKeptWriter>(job); }
+std::unique_ptr<KeptPointWriter> create_las_kept_writer(const KeptJob& job) {
+  return std::make_unique<LasKeptWriter>(job);
+}
 
 }  // namespace arris::io

@@ -73,7 +73,9 @@ inline constexpr std::array<LasPointLayout, kLasPointFormats> kLasPointLayouts{{
 }};
 
 /// Point formats 6 to 10 arrange the bytes behind the intensity differently.
-inline constexpr bool is_extended_format(std::uint8_t point_format) { return point_format >= 6; }
+inline constexpr bool is_extended_format(std::uint8_t point_format) {
+  return point_format >= 6;
+}
 
 /// Degrees per unit of the scan angle of point formats 6 to 10.
 inline constexpr double kScanAngleStepDeg = 0.006;

@@ -35,7 +35,9 @@ Shared read_shared(const SourceInfo& input) {
   return shared;
 }
 
-std::string triple(const std::array<double, 3>& v) { return fmt::format("({}, {}, {})", v[0], v[1], v[2]); }
+std::string triple(const std::array<double, 3>& v) {
+  return fmt::format("({}, {}, {})", v[0], v[1], v[2]);
+}
 
 std::string difference(const Shared& a, const Shared& b) {
   const LasHeader& x = a.las.header;
@@ -67,7 +69,8 @@ void check_las_sharing(const std::vector<SourceInfo>& inputs, std::vector<std::s
   }
   const std::string name = InputFile(inputs[0].path).name();
   if (crs_differ) {
-    warnings.push_back(fmt::format("the inputs have different coordinate reference systems; that of {} is written", name));
+    warnings.push_back(
+        fmt::format("the inputs have different coordinate reference systems; that of {} is written", name));
   }
   if (left_out > 0) {
     warnings.push_back(fmt::format("{} extended records of inputs after {} are left out", left_out, name));

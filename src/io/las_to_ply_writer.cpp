@@ -13,9 +13,9 @@
 namespace arris::io {
 namespace {
 
-/// LAS points as binary little-endian PLY: double x y z; ushort intensity; uchar return_number, number_of_returns, classification;
-/// float scan_angle (degrees); uchar user_data; ushort point_source_id; double gps_time and ushort red green blue where the point
-/// format has them; then our columns.
+/// LAS points as binary little-endian PLY: double x y z; ushort intensity; uchar return_number, number_of_returns,
+/// classification; float scan_angle (degrees); uchar user_data; ushort point_source_id; double gps_time and ushort red
+/// green blue where the point format has them; then our columns.
 class LasToPlyWriter final : public KeptPointWriter {
  public:
   explicit LasToPlyWriter(const KeptJob& job) : output_(job.path, job.options.overwrite), sources_(job.inputs) {
@@ -60,8 +60,15 @@ class LasToPlyWriter final : public KeptPointWriter {
   };
 
   std::vector<Field> fields() const {
-    std::vector<Field> all{{"double", "x"}, {"double", "y"}, {"double", "z"}, {"ushort", "intensity"}, {"uchar", "return_number"},
-                           {"uchar", "number_of_returns"}, {"uchar", "classification"}, {"float", "scan_angle"}, {"uchar", "user_data"},
+    std::vector<Field> all{{"double", "x"},
+                           {"double", "y"},
+                           {"double", "z"},
+                           {"ushort", "intensity"},
+                           {"uchar", "return_number"},
+                           {"uchar", "number_of_returns"},
+                           {"uchar", "classification"},
+                           {"float", "scan_angle"},
+                           {"uchar", "user_data"},
                            {"ushort", "point_source_id"}};
     if (layout_.gps_time != 0) all.push_back({"double", "gps_time"});
     if (layout_.colour != 0) {
@@ -79,11 +86,13 @@ class LasToPlyWriter final : public KeptPointWriter {
   void check_format(const SourceInfo& input) {
     const InputFile file(input.path);
     const int other = read_las_file(file).header.point_format;
-    if (other != point_format_) refuse_sharing(sources_[0], input, fmt::format("point formats {} and {}", point_format_, other));
+    if (other != point_format_)
+      refuse_sharing(sources_[0], input, fmt::format("point formats {} and {}", point_format_, other));
   }
 
   void note_losses(const InputFile& file, const LasFile& las) {
-    warnings_.push_back("PLY has no place for flags, scan direction, edge of flight line and scanner channel; they are left out");
+    warnings_.push_back(
+        "PLY has no place for flags, scan direction, edge of flight line and scanner channel; they are left out");
     if (layout_.infrared != 0) warnings_.push_back("near infrared is left out");
     if (layout_.waveform != 0) warnings_.push_back("waveforms are left out");
     const ExtraBytes extra = read_extra_bytes(file, las);
@@ -91,9 +100,11 @@ class LasToPlyWriter final : public KeptPointWriter {
     for (const ExtraAttribute& attribute : extra.attributes) {
       if (lost.size() < 200) lost += (lost.empty() ? ": " : ", ") + printable(attribute.name, 40);
     }
-    if (extra.present_bytes > 0) warnings_.push_back(fmt::format("{} extra bytes per point are left out{}", extra.present_bytes, lost));
+    if (extra.present_bytes > 0)
+      warnings_.push_back(fmt::format("{} extra bytes per point are left out{}", extra.present_bytes, lost));
     if (!las.vlrs.empty() || !las.evlrs.empty()) {
-      warnings_.push_back("PLY has no place for variable-length records; coordinate reference system and others are left out");
+      warnings_.push_back(
+          "PLY has no place for variable-length records; coordinate reference system and others are left out");
     }
   }
 
@@ -134,7 +145,8 @@ class LasToPlyWriter final : public KeptPointWriter {
       put<std::uint16_t>(load<std::uint16_t>(record + 18));
     }
     if (layout_.gps_time != 0) put<double>(load<double>(record + layout_.gps_time));
-    for (std::size_t i = 0; layout_.colour != 0 && i < 3; ++i) put<std::uint16_t>(load<std::uint16_t>(record + layout_.colour + 2 * i));
+    for (std::size_t i = 0; layout_.colour != 0 && i < 3; ++i)
+      put<std::uint16_t>(load<std::uint16_t>(record + layout_.colour + 2 * i));
   }
 
   OutputFile output_;
@@ -151,6 +163,8 @@ class LasToPlyWriter final : public KeptPointWriter {
 
 }  // namespace
 
-std::unique_ptr<KeptPointWriter> create_las_to_ply_writer(const KeptJob& job) { return std::make_unique<LasToPlyWriter>(job); }
+std::unique_ptr<KeptPointWriter> create_las_to_ply_writer(const KeptJob& job) {
+  return std::make_unique<LasToPlyWriter>(job);
+}
 
 }  // namespace arris::io

@@ -40,8 +40,9 @@ inline bool can_count(int minor, std::uint64_t points) {
   return minor >= 4 || points <= std::numeric_limits<std::uint32_t>::max();
 }
 
-/// Writes counts, counts by return and bounds into a header, from whose version, point format, scale and offset they follow. The
-/// 32-bit counts are written for point formats 0 to 5 only, and if they suffice; the bounds of no points are zero.
+/// Writes counts, counts by return and bounds into a header, from whose version, point format, scale and offset they
+/// follow. The 32-bit counts are written for point formats 0 to 5 only, and if they suffice; the bounds of no points
+/// are zero.
 void store_totals(std::span<std::byte> header, const LasTotals& totals);
 
 /// A LAS 1.4 header without points: scale and offset set, everything unused zero, WKT bit set.

@@ -103,12 +103,14 @@ void OutputFile::write(std::span<const std::byte> bytes) {
   size_bytes_ += bytes.size();
 }
 
-void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
+void OutputFile::write(std::string_view text) {
+  write(std::as_bytes(std::span(text.data(), text.size())));
+}
 
 void OutputFile::patch(std::uint64_t offset, std::span<const std::byte> bytes) {
   if (offset > size_bytes_ || bytes.size() > size_bytes_ - offset) {
-    throw IoError(fmt::format("{}: patch of {} bytes at {} lies behind the end at {}", printable(partial_path_.string(), 1000),
-                              bytes.size(), offset, size_bytes_));
+    throw IoError(fmt::format("{}: patch of {} bytes at {} lies behind the end at {}",
+                              printable(partial_path_.string(), 1000), bytes.size(), offset, size_bytes_));
   }
   flush();
   write_all(descriptor_, partial_path_, bytes, offset);

@@ -10,9 +10,9 @@
 
 namespace arris::io {
 
-/// Buffered sequential writer to "<final>.partial-<pid>", renamed by commit(). Every system call is checked; errors become
-/// IoError with the path, the bytes written and the system's reason. Destroyed without commit: the partial file is removed.
-/// Refuses (ConfigError) an existing final file unless overwrite is set. Not thread-safe.
+/// Buffered sequential writer to "<final>.partial-<pid>", renamed by commit(). Every system call is checked; errors
+/// become IoError with the path, the bytes written and the system's reason. Destroyed without commit: the partial file
+/// is removed. Refuses (ConfigError) an existing final file unless overwrite is set. Not thread-safe.
 class OutputFile {
  public:
   OutputFile(std::filesystem::path final_path, bool overwrite);

@@ -16,12 +16,14 @@ namespace arris::io {
 namespace {
 
 constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 20;
-constexpr std::size_t kMaxProperties = 65536;
 constexpr std::size_t kMaxElements = 4096;
+constexpr std::size_t kMaxProblems = 20;
 
 constexpr std::array<std::size_t, 10> kTypeBytes{1, 1, 2, 2, 4, 4, 4, 8, 8, 8};
-constexpr std::array<const char*, 10> kOldNames{"char", "uchar", "short", "ushort", "int", "uint", "float", "double", "int64", "uint64"};
-constexpr std::array<const char*, 10> kNewNames{"int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64", "int64", "uint64"};
+constexpr std::array<const char*, 10> kOldNames{"char", "uchar", "short",  "ushort", "int",
+                                                "uint", "float", "double", "int64",  "uint64"};
+constexpr std::array<const char*, 10> kNewNames{"int8",   "uint8",   "int16",   "uint16", "int32",
+                                                "uint32", "float32", "float64", "int64",  "uint64"};
 
 std::optional<PlyType> parse_type(std::string_view name) {
   for (std::size_t i = 0; i < kOldNames.size(); ++i) {
@@ -59,7 +61,8 @@ class HeaderParser {
 
  private:
   [[noreturn]] void refuse(std::string_view what) const {
-    throw InputError(fmt::format("{}: PLY header, line {}: {}", file_.name(), std::max<std::size_t>(1, header_.lines.size()), what));
+    throw InputError(
+        fmt::format("{}: PLY header, line {}: {}", file_.name(), std::max<std::size_t>(1, header_.lines.size()), what));
   }
 
   void find_line_end() {
@@ -94,8 +97,19 @@ class HeaderParser {
     if (keyword == "format") return parse_format(words);
     if (keyword == "element") return parse_element(words);
     if (keyword == "property") return parse_property(words);
-    if (keyword != "end_header") refuse(fmt::format("unknown keyword \"{}\"", printable(keyword, 40)));
-    ended_ = true;
+    ended_ = keyword == "end_header";
+    if (!ended_) pass_unknown(keyword);
+  }
+
+  /// Some writers break a comment into lines. Before the first element that is harmless; later it may be a misspelt
+  /// property.
+  void pass_unknown(std::string_view keyword) {
+    if (!header_.elements.empty()) refuse(fmt::format("unknown keyword \"{}\"", printable(keyword, 40)));
+    header_.problems.push_back(
+        {"ply-keyword", fmt::format("PLY header, line {}: unknown keyword \"{}\", taken as a comment",
+                                    header_.lines.size(), printable(keyword, 40))});
+    header_.lines.back().insert(0, "comment ");
+    if (header_.problems.size() > kMaxProblems) refuse("too many unknown keywords; the file is damaged");
   }
 
   void parse_format(const std::vector<std::string_view>& words) {
@@ -113,7 +127,8 @@ class HeaderParser {
     has_format_ = true;
     header_.version = words[2];
     if (words[2] != "1.0") {
-      header_.problems.push_back({"ply-version", fmt::format("PLY version \"{}\" is read as 1.0", printable(words[2], 40))});
+      header_.problems.push_back(
+          {"ply-version", fmt::format("PLY version \"{}\" is read as 1.0", printable(words[2], 40))});
     }
   }
 
@@ -152,7 +167,6 @@ class HeaderParser {
     if (!names_.insert(property.name).second) {
       refuse(fmt::format("a second property \"{}\"; rename one of them", printable(property.name, 40)));
     }
-    if (++properties_ > kMaxProperties) refuse("more than 65 536 properties; the file is damaged");
     header_.elements.back().properties.push_back(std::move(property));
   }
 
@@ -168,11 +182,13 @@ class HeaderParser {
       if (names.size() < 200) names += (i > 0 ? ", " : "") + printable(header_.elements[i].name, 40);
     }
     if (header_.elements.empty() || header_.vertices().name != "vertex") {
-      throw InputError(fmt::format("{}: has no element \"vertex\", only: {}", file_.name(), names.empty() ? "none" : names));
+      throw InputError(
+          fmt::format("{}: has no element \"vertex\", only: {}", file_.name(), names.empty() ? "none" : names));
     }
     for (const char* axis : {"x", "y", "z"}) {
       if (header_.vertices().find(axis) >= 0) continue;
-      throw InputError(fmt::format("{}: its vertices have no property \"{}\"; x, y and z are needed", file_.name(), axis));
+      throw InputError(
+          fmt::format("{}: its vertices have no property \"{}\"; x, y and z are needed", file_.name(), axis));
     }
   }
 
@@ -182,14 +198,17 @@ class HeaderParser {
   std::size_t at_ = 0;
   bool ended_ = false;
   bool has_format_ = false;
-  std::size_t properties_ = 0;
   std::set<std::string> names_;  ///< Of the current element's properties.
 };
 
 }  // namespace
 
-std::size_t size_bytes(PlyType type) { return kTypeBytes[static_cast<std::size_t>(type)]; }
-const char* type_name(PlyType type) { return kOldNames[static_cast<std::size_t>(type)]; }
+std::size_t size_bytes(PlyType type) {
+  return kTypeBytes[static_cast<std::size_t>(type)];
+}
+const char* type_name(PlyType type) {
+  return kOldNames[static_cast<std::size_t>(type)];
+}
 
 bool PlyElement::has_list() const {
   return std::any_of(properties.begin(), properties.end(), [](const PlyProperty& p) { return p.is_list; });
@@ -214,6 +233,8 @@ const char* PlyHeader::format_name() const {
                                               : "binary_big_endian";
 }
 
-PlyHeader read_ply_header(const InputFile& file) { return HeaderParser(file).parse(); }
+PlyHeader read_ply_header(const InputFile& file) {
+  return HeaderParser(file).parse();
+}
 
 }  // namespace arris::io

@@ -1,5 +1,6 @@
 #pragma once
-/// @file The header of a PLY file (Turk 1994, and the dialects in use): elements, properties, and the lines as they were.
+/// @file The header of a PLY file (Turk 1994, and the dialects in use): elements, properties, and the lines as they
+/// were.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,10 +14,23 @@
 namespace arris::io {
 
 enum class PlyFormat : std::uint8_t { kAscii, kLittleEndian, kBigEndian };
-enum class PlyType : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64, kInt64, kUint64 };
+enum class PlyType : std::uint8_t {
+  kInt8,
+  kUint8,
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kFloat32,
+  kFloat64,
+  kInt64,
+  kUint64
+};
 
 std::size_t size_bytes(PlyType type);
-constexpr bool is_integer(PlyType type) { return type != PlyType::kFloat32 && type != PlyType::kFloat64; }
+constexpr bool is_integer(PlyType type) {
+  return type != PlyType::kFloat32 && type != PlyType::kFloat64;
+}
 /// The name most readers know: "uchar", "float", ...
 const char* type_name(PlyType type);
 
@@ -46,9 +60,9 @@ struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::string version;             ///< "1.0"
   std::string line_end;            ///< "\n", "\r\n" or "\r"
-  std::vector<std::string> lines;  ///< All lines, "ply" and "end_header" included, without their ends.
+  std::vector<std::string> lines;  ///< All lines, "ply" to "end_header", without their ends.
   std::vector<PlyElement> elements;
-  std::size_t vertex = 0;       ///< Index of the vertex element.
+  std::size_t vertex = 0;        ///< Index of the vertex element.
   std::uint64_t body_begin = 0;  ///< Offset in the file of the first byte behind the header.
   std::vector<Problem> problems;
 
@@ -56,10 +70,11 @@ struct PlyHeader {
   const char* format_name() const;
 };
 
-/// Reads and checks a header of at most 1 MiB and 65 536 properties, in linear time. Accepted: LF, CRLF and CR line ends (CR in
-/// binary files too: then the body begins right behind it), comments and obj_info anywhere, leading and trailing blanks, all 16
-/// type names and int64/uint64. Throws InputError that names the line, for anything else, for files without a vertex element with
-/// scalar x, y, z, and for property names that occur twice in one element.
+/// Reads and checks a header of at most 1 MiB (thus fewer than 65 536 properties), in linear time. Accepted: LF, CRLF
+/// and CR line ends (CR in binary files too: then the body begins right behind it), comments and obj_info anywhere,
+/// leading and trailing blanks, all 16 type names and int64/uint64, and before the first element lines of unknown
+/// keywords, which become comments. Throws InputError that names the line, for anything else, for files without a
+/// vertex element with scalar x, y, z, and for property names that occur twice in one element.
 PlyHeader read_ply_header(const InputFile& file);
 
 }  // namespace arris::io

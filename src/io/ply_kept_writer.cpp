@@ -23,8 +23,8 @@ bool is_property_line(std::string_view line) {
   return word != std::string_view::npos && line.substr(word).starts_with("property");
 }
 
-/// Vertices kept bit for bit (in ascii: their text), our columns behind them; the header's lines stay as they were, apart from the
-/// count, our properties, and elements that cannot be carried.
+/// Vertices kept bit for bit (in ascii: their text), our columns behind them; the header's lines stay as they were,
+/// apart from the count, our properties, and elements that cannot be carried.
 class PlyKeptWriter final : public KeptPointWriter {
  public:
   explicit PlyKeptWriter(const KeptJob& job)
@@ -35,7 +35,8 @@ class PlyKeptWriter final : public KeptPointWriter {
     columns_ = rename_taken_columns(job.columns, taken, warnings_);
     row_bytes_ = row_size_bytes(columns_);
     choose_elements();
-    if (job.inputs.size() > 1) warnings_.push_back(fmt::format("comments and other elements are taken from {} alone", input_.name()));
+    if (job.inputs.size() > 1)
+      warnings_.push_back(fmt::format("comments and other elements are taken from {} alone", input_.name()));
     write_header();
     for (std::size_t i = 0; i < header_.vertex; ++i) write_element(i);
   }
@@ -81,8 +82,8 @@ class PlyKeptWriter final : public KeptPointWriter {
       fates_[i].carried = i == header_.vertex || element.count == 0 || !refers_to_vertices(element);
       if (fates_[i].carried && i != header_.vertex && element.count > 0) last = i + 1;
       if (fates_[i].carried) continue;
-      warnings_.push_back(fmt::format("{}: element {} ({} records) is left out: it refers to vertices by their number", input_.name(),
-                                      printable(element.name, 40), element.count));
+      warnings_.push_back(fmt::format("{}: element {} ({} records) is left out: it refers to vertices by their number",
+                                      input_.name(), printable(element.name, 40), element.count));
     }
     std::uint64_t at = header_.body_begin;
     for (std::size_t i = 0; i < last; ++i) {
@@ -92,7 +93,8 @@ class PlyKeptWriter final : public KeptPointWriter {
       } catch (const InputError& error) {
         if (i <= header_.vertex) throw;
         for (std::size_t j = i; j < last; ++j) fates_[j].carried = false;
-        warnings_.push_back(fmt::format("elements from {} on are left out: {}", printable(header_.elements[i].name, 40), error.what()));
+        warnings_.push_back(
+            fmt::format("elements from {} on are left out: {}", printable(header_.elements[i].name, 40), error.what()));
         break;
       }
       fates_[i].end = at;
@@ -150,6 +152,8 @@ class PlyKeptWriter final : public KeptPointWriter {
 
 }  // namespace
 
-std::unique_ptr<KeptPointWriter> create_ply_kept_writer(const KeptJob& job) { return std::make_unique<PlyKeptWriter>(job); }
+std::unique_ptr<KeptPointWriter> create_ply_kept_writer(const KeptJob& job) {
+  return std::make_unique<PlyKeptWriter>(job);
+}
 
 }  // namespace arris::io

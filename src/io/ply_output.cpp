@@ -13,10 +13,14 @@ constexpr std::string_view kCountComment = "comment written by arris .";
 
 const char* column_type_name(ColumnType type) {
   switch (type) {
-    case ColumnType::kUint8: return "uchar";
-    case ColumnType::kUint16: return "ushort";
-    case ColumnType::kUint32: return "uint";
-    case ColumnType::kFloat32: break;
+    case ColumnType::kUint8:
+      return "uchar";
+    case ColumnType::kUint16:
+      return "ushort";
+    case ColumnType::kUint32:
+      return "uint";
+    case ColumnType::kFloat32:
+      break;
   }
   return "float";
 }
@@ -25,10 +29,18 @@ void print_value(ColumnType type, const std::byte* at, std::vector<std::byte>& o
   std::array<char, 48> text{};
   char* end = text.data();
   switch (type) {
-    case ColumnType::kUint8: end = fmt::format_to(text.data(), " {}", load<std::uint8_t>(at)); break;
-    case ColumnType::kUint16: end = fmt::format_to(text.data(), " {}", load<std::uint16_t>(at)); break;
-    case ColumnType::kUint32: end = fmt::format_to(text.data(), " {}", load<std::uint32_t>(at)); break;
-    case ColumnType::kFloat32: end = fmt::format_to(text.data(), " {}", load<float>(at)); break;
+    case ColumnType::kUint8:
+      end = fmt::format_to(text.data(), " {}", load<std::uint8_t>(at));
+      break;
+    case ColumnType::kUint16:
+      end = fmt::format_to(text.data(), " {}", load<std::uint16_t>(at));
+      break;
+    case ColumnType::kUint32:
+      end = fmt::format_to(text.data(), " {}", load<std::uint32_t>(at));
+      break;
+    case ColumnType::kFloat32:
+      end = fmt::format_to(text.data(), " {}", load<float>(at));
+      break;
   }
   const auto* first = reinterpret_cast<const std::byte*>(text.data());
   out.insert(out.end(), first, first + (end - text.data()));
@@ -38,10 +50,13 @@ void print_value(ColumnType type, const std::byte* at, std::vector<std::byte>& o
 
 std::string ply_count_lines(std::uint64_t count, std::string_view line_end) {
   const std::string digits = fmt::format("{}", count);
-  return fmt::format("{}{}{}element vertex {}{}", kCountComment, std::string(20 - digits.size(), '.'), line_end, digits, line_end);
+  return fmt::format("{}{}{}element vertex {}{}", kCountComment, std::string(20 - digits.size(), '.'), line_end, digits,
+                     line_end);
 }
 
-bool is_count_comment(std::string_view line) { return line.starts_with(kCountComment); }
+bool is_count_comment(std::string_view line) {
+  return line.starts_with(kCountComment);
+}
 
 std::string ply_column_lines(const std::vector<ColumnSpec>& columns, std::string_view line_end) {
   std::string lines;
@@ -51,7 +66,8 @@ std::string ply_column_lines(const std::vector<ColumnSpec>& columns, std::string
   return lines;
 }
 
-void encode_row(PlyFormat format, const std::vector<ColumnSpec>& columns, const std::byte* row, std::vector<std::byte>& out) {
+void encode_row(PlyFormat format, const std::vector<ColumnSpec>& columns, const std::byte* row,
+                std::vector<std::byte>& out) {
   for (const ColumnSpec& column : columns) {
     const std::size_t size = size_bytes(column.type);
     if (format == PlyFormat::kAscii) {

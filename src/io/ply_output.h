@@ -12,8 +12,8 @@
 
 namespace arris::io {
 
-/// "element vertex <count>" preceded by a comment, together of the same length whatever the count: written first with 0, patched
-/// when the count is known. Padding the number itself would confuse some readers.
+/// "element vertex <count>" preceded by a comment, together of the same length whatever the count: written first with
+/// 0, patched when the count is known. Padding the number itself would confuse some readers.
 std::string ply_count_lines(std::uint64_t count, std::string_view line_end);
 /// True for the comment of ply_count_lines(), which is not carried on.
 bool is_count_comment(std::string_view line);
@@ -21,8 +21,9 @@ bool is_count_comment(std::string_view line);
 /// "property <type> <name>" lines of our columns.
 std::string ply_column_lines(const std::vector<ColumnSpec>& columns, std::string_view line_end);
 
-/// Appends one row of our columns in the file's format; in ascii each value is preceded by a blank. Numbers are printed with
-/// the fewest digits that give the same value back.
-void encode_row(PlyFormat format, const std::vector<ColumnSpec>& columns, const std::byte* row, std::vector<std::byte>& out);
+/// Appends one row of our columns in the file's format; in ascii each value is preceded by a blank. Numbers are printed
+/// with the fewest digits that give the same value back.
+void encode_row(PlyFormat format, const std::vector<ColumnSpec>& columns, const std::byte* row,
+                std::vector<std::byte>& out);
 
 }  // namespace arris::io

@@ -15,9 +15,12 @@
 namespace arris::io {
 namespace {
 
-bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+bool is_space(char c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
 
-/// Numbers begin with a digit, sign or point, or are spelled nan, inf. Anything else means that the values have gone out of step.
+/// Numbers begin with a digit, sign or point, or are spelled nan, inf. Anything else means that the values have gone
+/// out of step.
 bool may_be_number(std::string_view token) {
   const char c = token[0];
   return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == 'n' || c == 'N' || c == 'i' || c == 'I';
@@ -27,7 +30,8 @@ bool parse_number(std::string_view token, double& value) {
   if (token.starts_with('+')) token.remove_prefix(1);
   const char* end = token.data() + token.size();
   const auto result = fast_float::from_chars(token.data(), end, value);
-  if (result.ptr == end && result.ec != std::errc::invalid_argument) return true;  // Too large or small: infinity or zero.
+  if (result.ptr == end && result.ec != std::errc::invalid_argument)
+    return true;                               // Too large or small: infinity or zero.
   const std::size_t mark = token.find("1.#");  // Older Windows libraries print 1.#INF, -1.#IND, 1.#QNAN.
   if (mark > 1 || (mark == 1 && token[0] != '-')) return false;
   const bool infinite = token.substr(mark + 3).starts_with("INF");
@@ -39,16 +43,26 @@ bool parse_number(std::string_view token, double& value) {
 template <std::endian kOrder>
 double load_as_double(PlyType type, const std::byte* at) {
   switch (type) {
-    case PlyType::kInt8: return load<std::int8_t, kOrder>(at);
-    case PlyType::kUint8: return load<std::uint8_t, kOrder>(at);
-    case PlyType::kInt16: return load<std::int16_t, kOrder>(at);
-    case PlyType::kUint16: return load<std::uint16_t, kOrder>(at);
-    case PlyType::kInt32: return load<std::int32_t, kOrder>(at);
-    case PlyType::kUint32: return load<std::uint32_t, kOrder>(at);
-    case PlyType::kFloat32: return static_cast<double>(load<float, kOrder>(at));
-    case PlyType::kFloat64: return load<double, kOrder>(at);
-    case PlyType::kInt64: return static_cast<double>(load<std::int64_t, kOrder>(at));
-    case PlyType::kUint64: break;
+    case PlyType::kInt8:
+      return load<std::int8_t, kOrder>(at);
+    case PlyType::kUint8:
+      return load<std::uint8_t, kOrder>(at);
+    case PlyType::kInt16:
+      return load<std::int16_t, kOrder>(at);
+    case PlyType::kUint16:
+      return load<std::uint16_t, kOrder>(at);
+    case PlyType::kInt32:
+      return load<std::int32_t, kOrder>(at);
+    case PlyType::kUint32:
+      return load<std::uint32_t, kOrder>(at);
+    case PlyType::kFloat32:
+      return static_cast<double>(load<float, kOrder>(at));
+    case PlyType::kFloat64:
+      return load<double, kOrder>(at);
+    case PlyType::kInt64:
+      return static_cast<double>(load<std::int64_t, kOrder>(at));
+    case PlyType::kUint64:
+      break;
   }
   return static_cast<double>(load<std::uint64_t, kOrder>(at));
 }
@@ -104,25 +118,29 @@ PlyRecordWalker::Result PlyRecordWalker::walk_ascii(std::string_view text, bool 
     if (step.slot >= 0) {
       if (!parse_number(token, values_[static_cast<std::size_t>(step.slot)])) {
         const char* hint = token.find(',') != std::string_view::npos ? "; decimals must be written with a point" : "";
-        return bad(fmt::format("\"{}\" is not a number (property {}){}", printable(token, 40), printable(step.property.name, 40), hint));
+        return bad(fmt::format("\"{}\" is not a number (property {}){}", printable(token, 40),
+                               printable(step.property.name, 40), hint));
       }
       continue;
     }
     if (!step.property.is_list) {
       if (!may_be_number(token)) {
-        return bad(fmt::format("\"{}\" is not a number (property {})", printable(token, 40), printable(step.property.name, 40)));
+        return bad(fmt::format("\"{}\" is not a number (property {})", printable(token, 40),
+                               printable(step.property.name, 40)));
       }
       continue;
     }
     std::uint64_t items = 0;
     const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), items);
     if (error != std::errc{} || end != token.data() + token.size()) {
-      return bad(fmt::format("\"{}\" is not the length of a list (property {})", printable(token, 40), printable(step.property.name, 40)));
+      return bad(fmt::format("\"{}\" is not the length of a list (property {})", printable(token, 40),
+                             printable(step.property.name, 40)));
     }
     for (; items > 0; --items) {
       if (!next_token(text, file_end, token)) return Result::kMore;
       if (!may_be_number(token)) {
-        return bad(fmt::format("\"{}\" is not a number (list {})", printable(token, 40), printable(step.property.name, 40)));
+        return bad(
+            fmt::format("\"{}\" is not a number (list {})", printable(token, 40), printable(step.property.name, 40)));
       }
     }
   }
@@ -144,8 +162,8 @@ PlyRecordWalker::Result PlyRecordWalker::walk_binary(std::span<const std::byte> 
     if (items < 0.0) return bad(fmt::format("list {} has length {}", printable(property.name, 40), items));
     const double item_bytes = items * static_cast<double>(size_bytes(property.type));
     if (item_bytes > static_cast<double>(FileWindow::kMaxBytes)) {
-      return bad(fmt::format("list {} has length {}, more than the {} that a record may take", printable(property.name, 40), items,
-                             human_bytes(FileWindow::kMaxBytes)));
+      return bad(fmt::format("list {} has length {}, more than the {} that a record may take",
+                             printable(property.name, 40), items, human_bytes(FileWindow::kMaxBytes)));
     }
     if (static_cast<double>(bytes.size() - end_) < item_bytes) return Result::kMore;
     end_ += static_cast<std::size_t>(item_bytes);

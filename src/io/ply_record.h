@@ -21,7 +21,8 @@ class PlyRecordWalker {
     kMore,  ///< The bytes end within the record.
     kBad,   ///< problem() says what is wrong with it.
   };
-  /// @param file_end  true if no bytes follow those given; only then does the last token of an ascii file end with them.
+  /// @param file_end  true if no bytes follow those given; only then does the last token of an ascii file end with
+  /// them.
   Result walk(std::span<const std::byte> bytes, bool file_end);
 
   std::size_t begin() const { return begin_; }  ///< Behind the white space that precedes an ascii record.

@@ -16,7 +16,8 @@ std::string property_text(const std::vector<PlyProperty>& properties, std::size_
   if (index >= properties.size()) return "nothing";
   const PlyProperty& p = properties[index];
   const std::string name = printable(p.name, 40);
-  return p.is_list ? fmt::format("list {} {} {}", type_name(p.count_type), type_name(p.type), name) : fmt::format("{} {}", type_name(p.type), name);
+  return p.is_list ? fmt::format("list {} {} {}", type_name(p.count_type), type_name(p.type), name)
+                   : fmt::format("{} {}", type_name(p.type), name);
 }
 
 std::string difference(const PlyHeader& a, const PlyHeader& b, bool same_encoding) {
@@ -26,7 +27,8 @@ std::string difference(const PlyHeader& a, const PlyHeader& b, bool same_encodin
   const auto [at, other] = std::mismatch(x.begin(), x.end(), y.begin(), y.end());
   if (at == x.end() && other == y.end()) return {};
   const auto index = static_cast<std::size_t>(at - x.begin());
-  return fmt::format("vertex property {} is {} in one and {} in the other", index + 1, property_text(x, index), property_text(y, index));
+  return fmt::format("vertex property {} is {} in one and {} in the other", index + 1, property_text(x, index),
+                     property_text(y, index));
 }
 
 bool speaks_of_vertices(std::string name) {
@@ -34,7 +36,8 @@ bool speaks_of_vertices(std::string name) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   constexpr std::array<std::string_view, 6> kHints{"vertex", "vertices", "vert", "point", "index", "indices"};
-  return std::any_of(kHints.begin(), kHints.end(), [&](std::string_view hint) { return name.find(hint) != std::string::npos; });
+  return std::any_of(kHints.begin(), kHints.end(),
+                     [&](std::string_view hint) { return name.find(hint) != std::string::npos; });
 }
 
 }  // namespace

@@ -41,16 +41,26 @@ void decode_axis(const std::byte* at, std::size_t stride, std::size_t count, dou
 template <std::endian kOrder>
 void decode_axis_of_type(PlyType type, const std::byte* at, std::size_t stride, std::size_t count, double* out) {
   switch (type) {
-    case PlyType::kInt8: return decode_axis<std::int8_t, kOrder>(at, stride, count, out);
-    case PlyType::kUint8: return decode_axis<std::uint8_t, kOrder>(at, stride, count, out);
-    case PlyType::kInt16: return decode_axis<std::int16_t, kOrder>(at, stride, count, out);
-    case PlyType::kUint16: return decode_axis<std::uint16_t, kOrder>(at, stride, count, out);
-    case PlyType::kInt32: return decode_axis<std::int32_t, kOrder>(at, stride, count, out);
-    case PlyType::kUint32: return decode_axis<std::uint32_t, kOrder>(at, stride, count, out);
-    case PlyType::kFloat32: return decode_axis<float, kOrder>(at, stride, count, out);
-    case PlyType::kFloat64: return decode_axis<double, kOrder>(at, stride, count, out);
-    case PlyType::kInt64: return decode_axis<std::int64_t, kOrder>(at, stride, count, out);
-    case PlyType::kUint64: return decode_axis<std::uint64_t, kOrder>(at, stride, count, out);
+    case PlyType::kInt8:
+      return decode_axis<std::int8_t, kOrder>(at, stride, count, out);
+    case PlyType::kUint8:
+      return decode_axis<std::uint8_t, kOrder>(at, stride, count, out);
+    case PlyType::kInt16:
+      return decode_axis<std::int16_t, kOrder>(at, stride, count, out);
+    case PlyType::kUint16:
+      return decode_axis<std::uint16_t, kOrder>(at, stride, count, out);
+    case PlyType::kInt32:
+      return decode_axis<std::int32_t, kOrder>(at, stride, count, out);
+    case PlyType::kUint32:
+      return decode_axis<std::uint32_t, kOrder>(at, stride, count, out);
+    case PlyType::kFloat32:
+      return decode_axis<float, kOrder>(at, stride, count, out);
+    case PlyType::kFloat64:
+      return decode_axis<double, kOrder>(at, stride, count, out);
+    case PlyType::kInt64:
+      return decode_axis<std::int64_t, kOrder>(at, stride, count, out);
+    case PlyType::kUint64:
+      return decode_axis<std::uint64_t, kOrder>(at, stride, count, out);
   }
 }
 
@@ -185,9 +195,11 @@ class PlyWalkedSource final : public PointSource {
     const std::size_t least = header_.format == PlyFormat::kAscii ? 2 * header_.vertices().properties.size()
                                                                   : header_.vertices().least_bytes();
     if (info_.points <= (left + 1) / least) return;
-    throw InputError(fmt::format("{}: the header promises {} vertices, but the {} bytes behind byte {} hold at most {}; the file is cut short or "
-                                 "damaged",
-                                 file_.name(), info_.points, left, begin_, (left + 1) / least));
+    throw InputError(
+        fmt::format("{}: the header promises {} vertices, but the {} bytes behind byte {} hold at most {}; the file is "
+                    "cut short or "
+                    "damaged",
+                    file_.name(), info_.points, left, begin_, (left + 1) / least));
   }
 
   /// Ascii vertices that neither keep to lines nor use up the file were read out of step with the header's properties.
@@ -198,9 +210,10 @@ class PlyWalkedSource final : public PointSource {
       for (const std::byte b : window_.bytes()) {
         const char c = static_cast<char>(b);
         if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
-        throw InputError(fmt::format("{}: values remain after vertex {} and vertices do not end with their lines; the header declares fewer "
-                                     "properties than the lines have",
-                                     file_.name(), info_.points));
+        throw InputError(fmt::format(
+            "{}: values remain after vertex {} and vertices do not end with their lines; the header declares fewer "
+            "properties than the lines have",
+            file_.name(), info_.points));
       }
       window_.consume(window_.bytes().size());
     } while (window_.extend());

@@ -20,12 +20,28 @@ namespace arris::io {
 namespace {
 
 enum Field : std::size_t {
-  kX, kY, kZ, kIntensity, kReturnNumber, kReturns, kClass, kAngle, kUserData, kSourceId, kGpsTime, kRed, kGreen, kBlue, kFields
+  kX,
+  kY,
+  kZ,
+  kIntensity,
+  kReturnNumber,
+  kReturns,
+  kClass,
+  kAngle,
+  kUserData,
+  kSourceId,
+  kGpsTime,
+  kRed,
+  kGreen,
+  kBlue,
+  kFields
 };
 
 /// Names under which programs export LAS attributes to PLY; the first that is there is taken.
 constexpr std::array<std::array<const char*, 5>, kFields> kNames{{
-    {"x"}, {"y"}, {"z"},
+    {"x"},
+    {"y"},
+    {"z"},
     {"intensity", "Intensity", "scalar_Intensity", "scalar_intensity", "reflectance"},
     {"return_number", "scalar_Return_Number", "scalar_ReturnNumber", "return_num"},
     {"number_of_returns", "scalar_Number_Of_Returns", "scalar_NumberOfReturns"},
@@ -34,7 +50,9 @@ constexpr std::array<std::array<const char*, 5>, kFields> kNames{{
     {"user_data", "scalar_User_Data", "scalar_UserData"},
     {"point_source_id", "scalar_Point_Source_ID", "scalar_PointSourceId", "pt_src_id"},
     {"gps_time", "scalar_Gps_Time", "scalar_GpsTime"},
-    {"red", "diffuse_red", "r"}, {"green", "diffuse_green", "g"}, {"blue", "diffuse_blue", "b"},
+    {"red", "diffuse_red", "r"},
+    {"green", "diffuse_green", "g"},
+    {"blue", "diffuse_blue", "b"},
 }};
 
 WorldExtent measure(const std::vector<SourceInfo>& inputs) {
@@ -75,8 +93,10 @@ class PlyToLasWriter final : public KeptPointWriter {
     check_ply_sharing(job.inputs, /*same_encoding=*/true);
     grid_ = choose_las_grid(job.options.extent ? *job.options.extent : measure(job.inputs));
     colour_ = has(kRed) && has(kGreen) && has(kBlue);
-    eight_bit_ = colour_ && size_bytes(header_.vertices().properties[static_cast<std::size_t>(property_[kRed])].type) == 1;
-    unit_colour_ = colour_ && !is_integer(header_.vertices().properties[static_cast<std::size_t>(property_[kRed])].type);
+    eight_bit_ =
+        colour_ && size_bytes(header_.vertices().properties[static_cast<std::size_t>(property_[kRed])].type) == 1;
+    unit_colour_ =
+        colour_ && !is_integer(header_.vertices().properties[static_cast<std::size_t>(property_[kRed])].type);
     columns_ = job.columns;
     row_bytes_ = row_size_bytes(columns_);
     const std::uint8_t format = colour_ ? 7 : 6;
@@ -104,7 +124,8 @@ class PlyToLasWriter final : public KeptPointWriter {
 
   void commit() override {
     if (left_out_ > 0) {
-      warnings_.push_back(fmt::format("{} points without finite coordinates within the range of LAS are left out", grouped(left_out_)));
+      warnings_.push_back(
+          fmt::format("{} points without finite coordinates within the range of LAS are left out", grouped(left_out_)));
     }
     store_totals(las_header_, totals_);
     output_.patch(0, las_header_);
@@ -136,15 +157,19 @@ class PlyToLasWriter final : public KeptPointWriter {
     for (std::size_t i = 0; i < header_.vertices().properties.size(); ++i) {
       const auto used = std::find(property_.begin(), property_.end(), static_cast<int>(i));
       const bool carried = used != property_.end() && (colour_ || used < property_.begin() + kRed);
-      if (!carried && lost.size() < 300) lost += (lost.empty() ? "" : ", ") + printable(header_.vertices().properties[i].name, 40);
+      if (!carried && lost.size() < 300)
+        lost += (lost.empty() ? "" : ", ") + printable(header_.vertices().properties[i].name, 40);
     }
-    if (!lost.empty()) warnings_.push_back(fmt::format("LAS has no place for the vertex properties {}; they are left out", lost));
+    if (!lost.empty())
+      warnings_.push_back(fmt::format("LAS has no place for the vertex properties {}; they are left out", lost));
     for (const PlyElement& element : header_.elements) {
       if (element.name == "vertex" || element.count == 0) continue;
-      warnings_.push_back(fmt::format("element {} ({} records) is left out", printable(element.name, 40), element.count));
+      warnings_.push_back(
+          fmt::format("element {} ({} records) is left out", printable(element.name, 40), element.count));
       if (warnings_.size() > 20) break;
     }
-    if (has(kIntensity) && !is_integer(header_.vertices().properties[static_cast<std::size_t>(property_[kIntensity])].type)) {
+    if (has(kIntensity) &&
+        !is_integer(header_.vertices().properties[static_cast<std::size_t>(property_[kIntensity])].type)) {
       warnings_.push_back("intensity is a floating-point property; it is rounded to 0..65535");
     }
     warnings_.push_back(fmt::format("coordinates are rounded to multiples of {}", grid_.scale));
@@ -177,7 +202,8 @@ class PlyToLasWriter final : public KeptPointWriter {
     }
     store<std::uint16_t>(record + 12, clamped<std::uint16_t>(value(kIntensity)));
     const auto number = has(kReturnNumber) ? std::min<unsigned>(15, clamped<std::uint8_t>(value(kReturnNumber))) : 1U;
-    const auto returns = has(kReturns) ? std::min<unsigned>(15, clamped<std::uint8_t>(value(kReturns))) : std::max(1U, number);
+    const auto returns =
+        has(kReturns) ? std::min<unsigned>(15, clamped<std::uint8_t>(value(kReturns))) : std::max(1U, number);
     store<std::uint8_t>(record + 14, static_cast<std::uint8_t>(number | (returns << 4)));
     store<std::uint8_t>(record + 16, clamped<std::uint8_t>(value(kClass)));
     store<std::uint8_t>(record + 17, clamped<std::uint8_t>(value(kUserData)));
@@ -220,6 +246,8 @@ class PlyToLasWriter final : public KeptPointWriter {
 
 }  // namespace
 
-std::unique_ptr<KeptPointWriter> create_ply_to_las_writer(const KeptJob& job) { return std::make_unique<PlyToLasWriter>(job); }
+std::unique_ptr<KeptPointWriter> create_ply_to_las_writer(const KeptJob& job) {
+  return std::make_unique<PlyToLasWriter>(job);
+}
 
 }  // namespace arris::io

@@ -96,7 +96,8 @@ InputSet::InputSet(const std::vector<fs::path>& paths) {
   for (const fs::path& path : paths) {
     infos_.push_back(open_point_source(path)->info());
     const auto sum = checked_add(points_, infos_.back().points);
-    if (!sum) throw InputError(fmt::format("{}: the inputs promise more than 2^64 points", printable(path.string(), 1000)));
+    if (!sum)
+      throw InputError(fmt::format("{}: the inputs promise more than 2^64 points", printable(path.string(), 1000)));
     points_ = *sum;
   }
 }
@@ -123,8 +124,9 @@ bool InputSet::read(PointBatch& batch, const ReadOptions& options) {
     const SourceInfo& expected = infos_[next_];
     open_ = open_point_source(expected.path);
     if (open_->info().size_bytes != expected.size_bytes || open_->info().points != expected.points) {
-      throw InputError(fmt::format("{}: changed while it was in use ({} points, now {}); start again when it is complete",
-                                   printable(expected.path.string(), 1000), expected.points, open_->info().points));
+      throw InputError(
+          fmt::format("{}: changed while it was in use ({} points, now {}); start again when it is complete",
+                      printable(expected.path.string(), 1000), expected.points, open_->info().points));
     }
     current_ = next_++;
   }

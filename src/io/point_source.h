@@ -14,7 +14,8 @@ namespace arris::io {
 
 enum class Format : std::uint8_t { kLas, kPly };
 
-/// Something wrong or unusual in a file that can still be read. `code` is a stable identifier, `text` one printable line.
+/// Something wrong or unusual in a file that can still be read. `code` is a stable identifier, `text` one printable
+/// line.
 struct Problem {
   std::string code;
   std::string text;
@@ -24,14 +25,15 @@ struct Problem {
 struct SourceInfo {
   std::filesystem::path path;
   Format format = Format::kLas;
-  std::string layout;            ///< For people: "LAS 1.4, point format 8, 94 bytes per point" / "PLY binary_little_endian 1.0".
+  std::string layout;  ///< For people: "LAS 1.4, point format 8, 94 bytes per point" / "PLY binary_little_endian 1.0".
   std::uint64_t size_bytes = 0;  ///< Of the file.
   std::uint64_t points = 0;      ///< Points that read() will deliver.
   /// True if coordinates are stored as scaled integers (LAS): world = offset + scale * integer, per axis.
   bool scaled_integers = false;
   std::array<double, 3> scale{1.0, 1.0, 1.0};
   std::array<double, 3> offset{0.0, 0.0, 0.0};
-  std::size_t record_bytes = 0;  ///< Size of one original record; 0 where records have no fixed size (PLY ascii or with lists).
+  std::size_t record_bytes =
+      0;  ///< Size of one original record; 0 where records have no fixed size (PLY ascii or with lists).
   std::vector<Problem> problems;  ///< Found while opening; worth a warning each.
 };
 
@@ -41,8 +43,8 @@ struct PointBatch {
   std::size_t count = 0;
   /// Stored integers, `count` each; only if scaled_integers.
   std::vector<std::int32_t> ix, iy, iz;
-  /// World coordinates, `count` each; only if not scaled_integers. May hold NaN and infinities. A number in a PLY ascii file is
-  /// taken with all its digits, even where its property is declared float.
+  /// World coordinates, `count` each; only if not scaled_integers. May hold NaN and infinities. A number in a PLY ascii
+  /// file is taken with all its digits, even where its property is declared float.
   std::vector<double> x, y, z;
   /// Original records, only if asked for: point i occupies records[record_begin[i], record_begin[i + 1]).
   std::vector<std::byte> records;
@@ -50,29 +52,29 @@ struct PointBatch {
 };
 
 struct ReadOptions {
-  bool records = false;                  ///< Deliver the original records as well as the coordinates.
+  bool records = false;  ///< Deliver the original records as well as the coordinates.
   /// Most points per batch, >= 1. Batches may be smaller: their records take about 4 MiB at most, or one longer record.
   std::size_t batch_points = 64 * 1024;
 };
 
-/// One file as a rewindable stream. Memory is bounded by the batch and a fixed read buffer (not mapped: a file that is cut short
-/// while we read gives an InputError, not a signal). Not thread-safe; different sources are independent.
+/// One file as a rewindable stream. Memory is bounded by the batch and a fixed read buffer (not mapped: a file that is
+/// cut short while we read gives an InputError, not a signal). Not thread-safe; different sources are independent.
 class PointSource {
  public:
   virtual ~PointSource() = default;
   virtual const SourceInfo& info() const = 0;
   /// Starts over from the first point.
   virtual void rewind() = 0;
-  /// Fills `batch` with the next points and returns true, or returns false (count = 0) after the last point. first_id counts
-  /// from 0 within this source. Throws InputError for damaged content, IoError if reading fails.
+  /// Fills `batch` with the next points and returns true, or returns false (count = 0) after the last point. first_id
+  /// counts from 0 within this source. Throws InputError for damaged content, IoError if reading fails.
   virtual bool read(PointBatch& batch, const ReadOptions& options) = 0;
 };
 
 /// Opens a file by its content ("LASF", "ply"), not by its name. Throws InputError / IoError.
 std::unique_ptr<PointSource> open_point_source(const std::filesystem::path& path);
 
-/// Expands arguments to files: a folder gives its *.las and *.ply files (any case, not recursive) in byte order of their names.
-/// Throws InputError for missing paths and folders without any scan.
+/// Expands arguments to files: a folder gives its *.las and *.ply files (any case, not recursive) in byte order of
+/// their names. Throws InputError for missing paths and folders without any scan.
 std::vector<std::filesystem::path> expand_inputs(std::span<const std::string> arguments);
 
 /// Many files as one stream with global ids. Sources are opened lazily one at a time; infos are read at construction.

@@ -15,7 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string shown(const fs::path& path) { return printable(path.string(), 1000); }
+std::string shown(const fs::path& path) {
+  return printable(path.string(), 1000);
+}
 
 Format format_of(const fs::path& path) {
   std::string extension = path.extension().string();
@@ -24,16 +26,17 @@ Format format_of(const fs::path& path) {
   }
   if (extension == ".las") return Format::kLas;
   if (extension == ".ply") return Format::kPly;
-  throw ConfigError(fmt::format("{}: cannot write \"{}\"; the name of a point output must end in .las or .ply", shown(path),
-                                printable(extension, 20)));
+  throw ConfigError(fmt::format("{}: cannot write \"{}\"; the name of a point output must end in .las or .ply",
+                                shown(path), printable(extension, 20)));
 }
 
 void check_columns(const std::vector<ColumnSpec>& columns) {
   for (const ColumnSpec& column : columns) {
     const bool blank = column.name.find_first_of(" \t\r\n") != std::string::npos;
     if (column.name.empty() || column.name.size() > 32 || blank || column.description.size() > 32) {
-      throw ConfigError(fmt::format("column \"{}\": names need 1 to 32 characters without blanks, descriptions at most 32",
-                                    printable(column.name, 40)));
+      throw ConfigError(
+          fmt::format("column \"{}\": names need 1 to 32 characters without blanks, descriptions at most 32",
+                      printable(column.name, 40)));
     }
   }
 }
@@ -62,14 +65,18 @@ std::unique_ptr<KeptPointWriter> create_kept_point_writer(const fs::path& path, 
 std::unique_ptr<FreshCloudWriter> create_fresh_cloud_writer(const fs::path& path, const FreshCloud& cloud,
                                                             const OutputOptions& options) {
   const Format format = format_of(path);
-  if (!(cloud.scale > 0.0) || cloud.scale > 1e6) throw ConfigError(fmt::format("{}: scale {} must be positive", shown(path), cloud.scale));
-  return format == Format::kLas ? create_fresh_las_writer(path, cloud, options) : create_fresh_ply_writer(path, cloud, options);
+  if (!(cloud.scale > 0.0) || cloud.scale > 1e6)
+    throw ConfigError(fmt::format("{}: scale {} must be positive", shown(path), cloud.scale));
+  return format == Format::kLas ? create_fresh_las_writer(path, cloud, options)
+                                : create_fresh_ply_writer(path, cloud, options);
 }
 
 std::vector<ColumnSpec> rename_taken_columns(std::vector<ColumnSpec> columns, const std::vector<std::string>& taken,
                                              std::vector<std::string>& warnings) {
   std::vector<std::string> names = taken;
-  const auto is_taken = [&](const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+  const auto is_taken = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
   for (ColumnSpec& column : columns) {
     const std::string wanted = column.name;
     for (int n = 2; is_taken(column.name); ++n) {
@@ -78,7 +85,8 @@ std::vector<ColumnSpec> rename_taken_columns(std::vector<ColumnSpec> columns, co
     }
     names.push_back(column.name);
     if (column.name != wanted) {
-      warnings.push_back(fmt::format("the input already has an attribute {}; ours is written as {}", wanted, column.name));
+      warnings.push_back(
+          fmt::format("the input already has an attribute {}; ours is written as {}", wanted, column.name));
     }
   }
   return columns;
@@ -88,7 +96,8 @@ void copy_bytes(const InputFile& from, std::uint64_t begin, std::uint64_t end, O
   constexpr std::uint64_t kBlock = std::uint64_t{1} << 20;
   std::vector<std::byte> block(static_cast<std::size_t>(std::min(kBlock, end - begin)));
   while (begin < end) {
-    const auto part = std::span(block).first(static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), end - begin)));
+    const auto part =
+        std::span(block).first(static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), end - begin)));
     from.read(begin, part);
     to.write(std::span<const std::byte>(part));
     begin += part.size();

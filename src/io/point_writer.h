@@ -25,12 +25,13 @@ struct WorldExtent {
                             -std::numeric_limits<double>::infinity()};
 };
 
-/// A file that appears under its final name only when commit() has succeeded: it is written as "<name>.partial-<pid>" next to
-/// it, flushed, synced and renamed. Destroyed without commit, it removes the partial file. Refuses an existing final file
-/// unless overwrite is set (checked at construction and again at commit).
+/// A file that appears under its final name only when commit() has succeeded: it is written as "<name>.partial-<pid>"
+/// next to it, flushed, synced and renamed. Destroyed without commit, it removes the partial file. Refuses an existing
+/// final file unless overwrite is set (checked at construction and again at commit).
 struct OutputOptions {
   bool overwrite = false;
-  /// Extent of all points of the inputs, if the caller knows it: saves PLY -> LAS a pass over them to choose scale and offset.
+  /// Extent of all points of the inputs, if the caller knows it: saves PLY -> LAS a pass over them to choose scale and
+  /// offset.
   std::optional<WorldExtent> extent{};
 };
 
@@ -38,8 +39,8 @@ struct OutputOptions {
 class KeptPointWriter {
  public:
   virtual ~KeptPointWriter() = default;
-  /// Writes the points of `batch` (which came from source `source_index` of the inputs, with records) whose positions are in
-  /// `kept` (ascending), with `rows` holding one packed row of our columns per kept point.
+  /// Writes the points of `batch` (which came from source `source_index` of the inputs, with records) whose positions
+  /// are in `kept` (ascending), with `rows` holding one packed row of our columns per kept point.
   virtual void append(std::size_t source_index, const PointBatch& batch, std::span<const std::uint32_t> kept,
                       std::span<const std::byte> rows) = 0;
   /// Completes headers and makes the file appear. May add warnings. Throws IoError.
@@ -48,17 +49,18 @@ class KeptPointWriter {
   virtual const std::vector<std::string>& warnings() const = 0;
 };
 
-/// The extension of `path` picks the format (.las, .ply; otherwise ConfigError). Same format as the inputs: original bytes of
-/// every kept record are copied bit for bit, VLRs/EVLRs, scale, offset, property order, endianness and comments kept, our
-/// columns appended (LAS: extra bytes with their VLR, PLY: properties at the end of the vertex element). Other format:
-/// documented conversion. Inputs whose layouts cannot share one output give a ConfigError that says why.
+/// The extension of `path` picks the format (.las, .ply; otherwise ConfigError). Same format as the inputs: original
+/// bytes of every kept record are copied bit for bit, VLRs/EVLRs, scale, offset, property order, endianness and
+/// comments kept, our columns appended (LAS: extra bytes with their VLR, PLY: properties at the end of the vertex
+/// element). Other format: documented conversion. Inputs whose layouts cannot share one output give a ConfigError that
+/// says why.
 std::unique_ptr<KeptPointWriter> create_kept_point_writer(const std::filesystem::path& path, const InputSet& inputs,
                                                           const std::vector<ColumnSpec>& columns,
                                                           const OutputOptions& options);
 
 /// A cloud made from nothing.
 struct FreshCloud {
-  double scale = 0.001;                         ///< LAS scale of all axes; PLY stores doubles of the same rounded coordinates.
+  double scale = 0.001;  ///< LAS scale of all axes; PLY stores doubles of the same rounded coordinates.
   std::array<double, 3> offset{0.0, 0.0, 0.0};  ///< LAS offset.
   bool colour = false;
   std::string generator = "arris";
@@ -72,7 +74,8 @@ struct FreshPoint {
   std::uint16_t red = 0, green = 0, blue = 0;
 };
 
-/// Streams a new cloud of unknown length in bounded memory. LAS 1.4 point format 6 (7 with colour); PLY binary little-endian.
+/// Streams a new cloud of unknown length in bounded memory. LAS 1.4 point format 6 (7 with colour); PLY binary
+/// little-endian.
 class FreshCloudWriter {
  public:
   virtual ~FreshCloudWriter() = default;

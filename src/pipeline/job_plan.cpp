@@ -19,10 +19,14 @@ constexpr double kSpoolBytesPerPoint = 20.0;
 constexpr double kTileFileBytesPerPoint = 24.0;
 constexpr double kResultBytesPerPoint = 8.0;
 
+/// Squares of coordinates within the search radius stay exact.
+constexpr double kMostRadiusSteps = 1 << 29;
+
 double resolve_max_radius(const LiuParameters& liu, const tiling::Survey& survey) {
   if (liu.max_radius > 0.0) return liu.max_radius;
   const double spacing = liu.spacing > 0.0 ? liu.spacing : survey.spacing;
-  return std::max({kMaxRadiusSpacings * spacing, liu.radius, 4.0 * survey.lattice.step});
+  const double most = kMostRadiusSteps * survey.lattice.step;
+  return std::min(most, std::max({kMaxRadiusSpacings * spacing, liu.radius, 4.0 * survey.lattice.step}));
 }
 
 void check_temp_space(const JobPlan& plan, const ExtractRequest& request, ProgressSink& progress) {
@@ -44,7 +48,7 @@ void check_temp_space(const JobPlan& plan, const ExtractRequest& request, Progre
 
 JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSink& progress, const CancelToken& cancel) {
   JobPlan plan;
-  plan.memory = plan_memory({request.memory_bytes, request.threads, request.tile_points_cap});
+  plan.memory = plan_memory({request.memory_bytes, request.threads});
   plan.survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
   plan.liu = request.liu;
   plan.liu.max_radius = resolve_max_radius(request.liu, plan.survey);
@@ -52,6 +56,7 @@ JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSi
 
   tiling::PlanRequest tiles;
   tiles.max_points = plan.memory.max_tile_points;
+  tiles.max_core_points = request.tile_points_cap;
   tiles.halo = [&](double spacing) { return liu_halo(plan.liu, spacing); };
   tiles.max_radius = plan.liu.max_radius;
   plan.tiles = tiling::plan_tiles(plan.survey, tiles);

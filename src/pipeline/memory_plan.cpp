@@ -58,10 +58,8 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   while (plan.tile_workers > 1 && tile_bytes(kLeastTilePoints) * plan.tile_workers > plan.tiles_bytes) --plan.tile_workers;
 
   const std::uint64_t share = plan.tiles_bytes / plan.tile_workers;
-  const std::uint64_t cap =
-      request.tile_points_cap > 0 ? std::min(request.tile_points_cap, kLargestTilePoints) : kLargestTilePoints;
   std::uint64_t low = 1;
-  std::uint64_t high = cap + 1;  // Largest number of points whose tile fits lies in [low, high).
+  std::uint64_t high = kLargestTilePoints + 1;  // Largest number of points whose tile fits lies in [low, high).
   while (high - low > 1) {
     const std::uint64_t middle = low + (high - low) / 2;
     (tile_bytes(middle) <= share ? low : high) = middle;

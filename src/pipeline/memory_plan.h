@@ -8,7 +8,6 @@ namespace arris::pipeline {
 struct MemoryRequest {
   std::uint64_t budget_bytes = 0;
   int threads = 1;
-  std::uint64_t tile_points_cap = 0;  ///< 0: none but the budget's.
 };
 
 /// The division. fixed_bytes + tile_workers tiles of max_tile_points fit into the budget.

@@ -66,7 +66,8 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const JobPlan& plan, const 
     store.build(tile);
     TileContours contours;
     {
-      const TilePoints points = store.load(tile);
+      TilePoints points = store.load(tile);
+      points.covered = points.covered.unlimited_beyond(plan.survey.bounds);
       contours = extract_liu(points, plan.survey.lattice, plan.liu);
     }
     if (!contours.unproven.empty()) {

@@ -19,7 +19,8 @@
 namespace arris::pipeline {
 namespace {
 
-/// Queries answered together; bounds the memory of their regions (27 cells of 56 bytes each at most, usually shared).
+/// Queries answered together, of as many tiles as it takes: each tile file is then read once for all of them. Bounds the memory of
+/// their regions (27 cells of 64 bytes each at most, usually shared).
 constexpr std::size_t kGroupQueries = 20'000;
 
 class Widener {
@@ -90,17 +91,22 @@ WidenResult run_widen_stage(const JobPlan& plan, const std::vector<std::uint64_t
   if (outcome.queries == 0) return outcome;
   progress.phase("widen", outcome.queries);
   Widener widener(plan, store, results, outcome);
+  std::vector<UnprovenQuery> group;
+  const auto answer_group = [&] {
+    cancel.check();
+    widener.answer(group);
+    release_free_memory();
+    progress.advance(group.size());
+    group.clear();
+  };
   for (std::size_t tile = 0; tile < unproven.size(); ++tile) {
     if (unproven[tile] == 0) continue;
-    const std::vector<UnprovenQuery> queries = read_queries(folder / fmt::format("{}.queries", tile));
-    for (std::size_t begin = 0; begin < queries.size(); begin += kGroupQueries) {
-      cancel.check();
-      const std::size_t count = std::min(kGroupQueries, queries.size() - begin);
-      widener.answer(std::span(queries).subspan(begin, count));
-      release_free_memory();
-      progress.advance(count);
+    for (const UnprovenQuery& query : read_queries(folder / fmt::format("{}.queries", tile))) {
+      group.push_back(query);
+      if (group.size() == kGroupQueries) answer_group();
     }
   }
+  if (!group.empty()) answer_group();
   return outcome;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// @file Random numbers that depend on a seed and a counter only, so that any point can be made without the ones before it.
+/// @file Random numbers that depend on a seed and a counter only, so that any point can be made without the ones before
+/// it.
 
 #include <cstdint>
 

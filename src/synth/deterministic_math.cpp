@@ -49,8 +49,8 @@ constexpr std::array<double, 8> kB{1.0,
                                    3.9307895800092710610e4,
                                    2.8729085735721942674e4,
                                    5.2264952788528545610e3};
-constexpr std::array<double, 8> kC{1.42343711074968357734e0,  4.63033784615654529590e0,  5.76949722146069140550e0,
-                                   3.64784832476320460504e0,  1.27045825245236838258e0,  2.41780725177450611770e-1,
+constexpr std::array<double, 8> kC{1.42343711074968357734e0,  4.63033784615654529590e0, 5.76949722146069140550e0,
+                                   3.64784832476320460504e0,  1.27045825245236838258e0, 2.41780725177450611770e-1,
                                    2.27238449892691845833e-2, 7.74545014278341407640e-4};
 constexpr std::array<double, 8> kD{1.0,
                                    2.05319162663775882187e0,
@@ -80,10 +80,14 @@ SinCos sin_cos_turns(double turns) {
   const double s = x * polynomial(kSin, x * x);
   const double c = polynomial(kCos, x * x);
   switch (static_cast<std::int64_t>(quarters) & 3) {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
   }
 }
 
@@ -118,8 +122,8 @@ double normal_quantile(double p) {
   }
   const double tail = q < 0.0 ? p : 1.0 - p;
   const double r = std::sqrt(-natural_log(tail));
-  const double size = r <= 5.0 ? polynomial(kC, r - 1.6) / polynomial(kD, r - 1.6)
-                               : polynomial(kE, r - 5.0) / polynomial(kF, r - 5.0);
+  const double size =
+      r <= 5.0 ? polynomial(kC, r - 1.6) / polynomial(kD, r - 1.6) : polynomial(kE, r - 5.0) / polynomial(kF, r - 5.0);
   return q < 0.0 ? -size : size;
 }
 

@@ -18,7 +18,8 @@ double natural_log(double x);
 /// Cube root of x >= 0; relative error below 1e-15.
 double cube_root(double x);
 
-/// Quantile of the standard normal distribution for p in (0, 1); relative error about 1e-15 (Wichura 1988, algorithm AS 241).
+/// Quantile of the standard normal distribution for p in (0, 1); relative error about 1e-15 (Wichura 1988, algorithm AS
+/// 241).
 double normal_quantile(double p);
 
 }  // namespace arris::synth

@@ -41,12 +41,16 @@ double polygon_distance(const std::vector<Point2>& polygon, double u, double v) 
   return best;
 }
 
-std::vector<Point2> corners(const Rect2& r) { return {r.min, {r.max.u, r.min.v}, r.max, {r.min.u, r.max.v}}; }
+std::vector<Point2> corners(const Rect2& r) {
+  return {r.min, {r.max.u, r.min.v}, r.max, {r.min.u, r.max.v}};
+}
 
 /// Distance within the plane from a (u, v) that is not owned to the face.
 double border_distance(const Face& face, double u, double v) {
-  double best = face.disc ? std::abs(std::hypot(u - face.radius, v - face.radius) - face.radius)
-                          : polygon_distance(face.outline.empty() ? corners({{0, 0}, {face.size_u, face.size_v}}) : face.outline, u, v);
+  double best =
+      face.disc
+          ? std::abs(std::hypot(u - face.radius, v - face.radius) - face.radius)
+          : polygon_distance(face.outline.empty() ? corners({{0, 0}, {face.size_u, face.size_v}}) : face.outline, u, v);
   for (const Circle2& hole : face.circle_holes) {
     best = std::min(best, std::abs(std::hypot(u - hole.centre.u, v - hole.centre.v) - hole.radius));
   }
@@ -77,10 +81,14 @@ bool Face::owns(double u, double v) const {
 double Face::measure() const {
   constexpr double kPi = std::numbers::pi;
   switch (shape) {
-    case Shape::kCylinder: return 2.0 * kPi * radius * size_v;
-    case Shape::kSphere: return 4.0 * kPi * radius * radius;
-    case Shape::kVolume: return size_u * size_v * size_w;
-    case Shape::kPlane: break;
+    case Shape::kCylinder:
+      return 2.0 * kPi * radius * size_v;
+    case Shape::kSphere:
+      return 4.0 * kPi * radius * radius;
+    case Shape::kVolume:
+      return size_u * size_v * size_w;
+    case Shape::kPlane:
+      break;
   }
   double area = disc ? kPi * radius * radius : outline.empty() ? size_u * size_v : polygon_area(outline);
   for (const Circle2& hole : circle_holes) area -= kPi * hole.radius * hole.radius;
@@ -92,10 +100,14 @@ double Face::distance(const Vec3& point) const {
   const Vec3 local = point - origin;
   const double u = dot(local, eu), v = dot(local, ev), w = dot(local, ew);
   switch (shape) {
-    case Shape::kSphere: return std::abs(norm(local) - radius);
-    case Shape::kVolume: return std::sqrt(Box3{{0, 0, 0}, {size_u, size_v, size_w}}.squared_distance({u, v, w}));
-    case Shape::kCylinder: return std::hypot(std::hypot(u, v) - radius, std::max({-w, 0.0, w - size_v}));
-    case Shape::kPlane: break;
+    case Shape::kSphere:
+      return std::abs(norm(local) - radius);
+    case Shape::kVolume:
+      return std::sqrt(Box3{{0, 0, 0}, {size_u, size_v, size_w}}.squared_distance({u, v, w}));
+    case Shape::kCylinder:
+      return std::hypot(std::hypot(u, v) - radius, std::max({-w, 0.0, w - size_v}));
+    case Shape::kPlane:
+      break;
   }
   return owns(u, v) ? std::abs(w) : std::hypot(w, border_distance(*this, u, v));
 }
@@ -117,7 +129,8 @@ Box3 Face::bounds() const {
       return box;
     }
     case Shape::kPlane:
-    case Shape::kVolume: break;
+    case Shape::kVolume:
+      break;
   }
   for (const double w : {0.0, shape == Shape::kVolume ? size_w : 0.0}) {
     for (const double u : {0.0, size_u}) {

@@ -25,25 +25,25 @@ struct Rect2 {
 
 /// How a face looks to a scanner.
 struct Material {
-  double reflectance = 0.5;          ///< (0, 1].
-  std::uint8_t classification = 1;   ///< ASPRS code.
+  double reflectance = 0.5;         ///< (0, 1].
+  std::uint8_t classification = 1;  ///< ASPRS code.
   std::uint16_t red = 0x8000, green = 0x8000, blue = 0x8000;
 };
 
 /// One face. eu, ev, ew are orthonormal and right-handed.
 ///
-/// kPlane: origin + u eu + v ev for (u, v) in [0, size_u] x [0, size_v], cut to `outline` or `disc` if given, less the holes; ew is
-/// the normal. kCylinder: lateral surface about the axis ew from origin to origin + size_v ew, u runs round it. kSphere: centre
-/// `origin`. kVolume: the box [0, size_u] x [0, size_v] x [0, size_w] from origin, filled.
+/// kPlane: origin + u eu + v ev for (u, v) in [0, size_u] x [0, size_v], cut to `outline` or `disc` if given, less the
+/// holes; ew is the normal. kCylinder: lateral surface about the axis ew from origin to origin + size_v ew, u runs
+/// round it. kSphere: centre `origin`. kVolume: the box [0, size_u] x [0, size_v] x [0, size_w] from origin, filled.
 struct Face {
   enum class Shape : std::uint8_t { kPlane, kCylinder, kSphere, kVolume };
 
   Shape shape = Shape::kPlane;
   Vec3 origin, eu{1, 0, 0}, ev{0, 1, 0}, ew{0, 0, 1};
   double size_u = 0.0, size_v = 0.0, size_w = 0.0;
-  double radius = 0.0;            ///< Cylinder and sphere.
-  std::vector<Point2> outline;    ///< Plane: simple polygon within the rectangle; empty: the whole rectangle.
-  bool disc = false;              ///< Plane: the circle inscribed in the (square) rectangle.
+  double radius = 0.0;                ///< Cylinder and sphere.
+  std::vector<Point2> outline;        ///< Plane: simple polygon within the rectangle; empty: the whole rectangle.
+  bool disc = false;                  ///< Plane: the circle inscribed in the (square) rectangle.
   std::vector<Circle2> circle_holes;  ///< Plane: disjoint holes inside the outline.
   std::vector<Rect2> rect_holes;
   Material material;

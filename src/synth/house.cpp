@@ -115,7 +115,8 @@ class HouseBuilder {
   }
 
   void footing(const Vec3& a, const Vec3& b) {
-    model_.segment(house_.on_ground ? EdgeKind::kConcave : EdgeKind::kBoundary, "footing", a, b, house_.on_ground ? 90.0 : 0.0);
+    model_.segment(house_.on_ground ? EdgeKind::kConcave : EdgeKind::kBoundary, "footing", a, b,
+                   house_.on_ground ? 90.0 : 0.0);
   }
 
   /// The wall at y = side * width / 2, with its windows.
@@ -137,7 +138,9 @@ class HouseBuilder {
   /// @param outer, inner  y of the wall and of the pane.
   void window(const Rect2& hole, double outer, double inner) {
     const double x0 = hole.min.u - half_length(), x1 = hole.max.u - half_length(), z0 = hole.min.v, z1 = hole.max.v;
-    const auto ring = [&](double y) { return std::vector<Vec3>{at(x0, y, z0), at(x1, y, z0), at(x1, y, z1), at(x0, y, z1)}; };
+    const auto ring = [&](double y) {
+      return std::vector<Vec3>{at(x0, y, z0), at(x1, y, z0), at(x1, y, z1), at(x0, y, z1)};
+    };
     const std::vector<Vec3> front = ring(outer), back = ring(inner);
     model_.rectangle(back[0], back[1], back[3], kPane);
     model_.loop(EdgeKind::kConvex, "window", front, 90.0);
@@ -173,7 +176,8 @@ SceneModel build_single_house(const OptionValues& options, bool hip) {
   }
   const SinCos pitch = sin_cos_turns(house.pitch_deg / 360.0);
   if (house.eave_height <= house.overhang * pitch.sin / pitch.cos) {
-    throw ConfigError("the overhanging eaves would reach the ground; lower the option overhang or pitch, or raise eave");
+    throw ConfigError(
+        "the overhanging eaves would reach the ground; lower the option overhang or pitch, or raise eave");
   }
   SceneModel model;
   add_house(model, house);
@@ -190,9 +194,15 @@ SceneModel build_single_house(const OptionValues& options, bool hip) {
 
 }  // namespace
 
-void add_house(SceneModel& model, const House& house) { HouseBuilder(model, house).build(); }
+void add_house(SceneModel& model, const House& house) {
+  HouseBuilder(model, house).build();
+}
 
-SceneModel build_gable(const OptionValues& options, double /*spacing*/) { return build_single_house(options, false); }
-SceneModel build_hip(const OptionValues& options, double /*spacing*/) { return build_single_house(options, true); }
+SceneModel build_gable(const OptionValues& options, double /*spacing*/) {
+  return build_single_house(options, false);
+}
+SceneModel build_hip(const OptionValues& options, double /*spacing*/) {
+  return build_single_house(options, true);
+}
 
 }  // namespace arris::synth

@@ -9,8 +9,9 @@
 
 namespace arris::synth {
 
-/// The points of a scene are those of unit 0, unit 1, ... Every unit depends on the seed and its own index only, so the cut into
-/// blocks and the number of threads cannot matter. Immutable after construction: safe to use from several threads.
+/// The points of a scene are those of unit 0, unit 1, ... Every unit depends on the seed and its own index only, so the
+/// cut into blocks and the number of threads cannot matter. Immutable after construction: safe to use from several
+/// threads.
 class PointUnits {
  public:
   virtual ~PointUnits() = default;

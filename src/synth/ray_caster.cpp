@@ -110,7 +110,8 @@ void RayCaster::start_column(Column& column, double azimuth_sin, double azimuth_
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     const Target& target = targets_[i];
     if (target.min_range > max_range_) break;
-    if (!target.all_azimuths && std::abs(std::remainder(azimuth - target.azimuth, 2.0 * kPi)) > target.half_width) continue;
+    if (!target.all_azimuths && std::abs(std::remainder(azimuth - target.azimuth, 2.0 * kPi)) > target.half_width)
+      continue;
     const std::size_t last = bin_of(target.max_elevation_sin);
     for (std::size_t bin = bin_of(target.min_elevation_sin); bin <= last; ++bin) {
       column.bins[bin].push_back(static_cast<std::uint32_t>(i));

@@ -1,5 +1,6 @@
 #pragma once
-/// @file What a scanner at one place sees: the nearest face along a ray, for rays that come column by column. Private to synth.
+/// @file What a scanner at one place sees: the nearest face along a ray, for rays that come column by column. Private
+/// to synth.
 
 #include <array>
 #include <cstdint>
@@ -16,9 +17,9 @@ struct RayHit {
   friend bool operator==(const RayHit&, const RayHit&) = default;
 };
 
-/// Planes and upright cylinders as seen from one position. Rays of one azimuth share the list of faces that can be hit, sorted
-/// by elevation; within a list faces come nearest first, so that most rays end after one or two tests. Culling is conservative:
-/// cast() and cast_all() agree exactly. Immutable; a Column belongs to one thread.
+/// Planes and upright cylinders as seen from one position. Rays of one azimuth share the list of faces that can be hit,
+/// sorted by elevation; within a list faces come nearest first, so that most rays end after one or two tests. Culling
+/// is conservative: cast() and cast_all() agree exactly. Immutable; a Column belongs to one thread.
 class RayCaster {
  public:
   /// @param model  must outlive the caster; planes and cylinders along z only.
@@ -39,11 +40,11 @@ class RayCaster {
   struct Target {
     const Face* face = nullptr;
     std::uint32_t index = 0;
-    double min_range = 0.0;                          ///< No point of the face is nearer.
+    double min_range = 0.0;  ///< No point of the face is nearer.
     bool all_azimuths = false;
-    double azimuth = 0.0, half_width = 0.0;          ///< Radians; seen within azimuth +- half_width.
+    double azimuth = 0.0, half_width = 0.0;  ///< Radians; seen within azimuth +- half_width.
     double min_elevation_sin = -1.0, max_elevation_sin = 1.0;
-    double ou = 0.0, ov = 0.0, ow = 0.0;             ///< The scanner in the frame of the face.
+    double ou = 0.0, ov = 0.0, ow = 0.0;  ///< The scanner in the frame of the face.
   };
   static Target make_target(const Face& face, std::uint32_t index, const Vec3& position);
   void intersect(const Target& target, const Vec3& direction, RayHit& best) const;

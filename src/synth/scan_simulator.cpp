@@ -11,14 +11,15 @@ namespace arris::synth {
 
 namespace {
 
-constexpr double kReferenceRange = 10.0;     // Where the spacing is stated.
+constexpr double kReferenceRange = 10.0;  // Where the spacing is stated.
 constexpr double kMaxRange = 120.0;
 constexpr double kLowestTurns = -60.0 / 360.0;
 constexpr double kHighestTurns = 75.0 / 360.0;
 constexpr double kElevationTurns = kHighestTurns - kLowestTurns;
-constexpr double kDepthEdge = 0.1;           // Metres between neighbouring ranges that a beam may straddle.
-constexpr double kHalfIntensityRange = 30.0; // Where range alone halves the intensity.
-constexpr std::uint64_t kProbeColumns = 1440, kProbeRows = 540;
+constexpr double kDepthEdge = 0.1;            // Metres between the ranges of the two halves of a beam that mix.
+constexpr double kBeamWidth = 0.5;            // In angular steps.
+constexpr double kHalfIntensityRange = 30.0;  // Where range alone halves the intensity.
+constexpr std::uint64_t kProbeColumns = 960, kProbeRows = 360;
 constexpr double kMostRows = 1e7;
 
 std::uint16_t intensity(const RayHit& hit, double reflectance) {
@@ -28,7 +29,8 @@ std::uint16_t intensity(const RayHit& hit, double reflectance) {
 
 }  // namespace
 
-ScanSimulator::ScanSimulator(const SceneModel& model, const ScanSettings& settings) : model_(model), settings_(settings) {
+ScanSimulator::ScanSimulator(const SceneModel& model, const ScanSettings& settings)
+    : model_(model), settings_(settings) {
   for (std::size_t i = 0; i < model.stations.size(); ++i) {
     const Vec3 position = model.stations[i].position;
     PointRandom random(derive_key(derive_key(settings.seed, 1), i));
@@ -44,9 +46,11 @@ ScanSimulator::ScanSimulator(const SceneModel& model, const ScanSettings& settin
   spacing_ = step_turns * 2.0 * std::numbers::pi * kReferenceRange;
   const double rows = std::floor(kElevationTurns / step_turns + 0.5);
   if (!(rows >= 1.0 && rows <= kMostRows)) {
-    throw ConfigError("the spacing asks for no or too many rays per column; ask for a spacing from 0.0001 to 1 at 10 m");
+    throw ConfigError(
+        "the spacing asks for no or too many rays per column; ask for a spacing from 0.0001 to 1 at 10 m");
   }
-  columns_ = static_cast<std::uint64_t>(std::max(1.0, std::floor(kElevationTurns / (rows * step_turns * step_turns) + 0.5)));
+  columns_ =
+      static_cast<std::uint64_t>(std::max(1.0, std::floor(kElevationTurns / (rows * step_turns * step_turns) + 0.5)));
   elevations_.resize(static_cast<std::size_t>(rows));
   for (std::size_t i = 0; i < elevations_.size(); ++i) {
     const SinCos angle = sin_cos_turns(kLowestTurns + kElevationTurns * (static_cast<double>(i) + 0.5) / rows);
@@ -65,11 +69,21 @@ double ScanSimulator::hit_share(const Station& station) const {
     const SinCos azimuth = sin_cos_turns((static_cast<double>(i) + 0.5) / kProbeColumns);
     station.caster.start_column(column, azimuth.sin, azimuth.cos);
     for (std::uint64_t j = 0; j < kProbeRows; ++j) {
-      const SinCos elevation = sin_cos_turns(kLowestTurns + kElevationTurns * (static_cast<double>(j) + 0.5) / kProbeRows);
+      const SinCos elevation =
+          sin_cos_turns(kLowestTurns + kElevationTurns * (static_cast<double>(j) + 0.5) / kProbeRows);
       if (station.caster.cast(column, elevation.sin, elevation.cos).range > 0.0) ++hits;
     }
   }
   return static_cast<double>(hits) / (kProbeColumns * kProbeRows);
+}
+
+double ScanSimulator::range_across_edge(const Station& station, const RayCaster::Column& column, std::size_t row,
+                                        const RayHit& hit) const {
+  const double place = (static_cast<double>(row) + 0.5 - kBeamWidth) / static_cast<double>(elevations_.size());
+  const SinCos elevation = sin_cos_turns(kLowestTurns + kElevationTurns * place);
+  const RayHit other = station.caster.cast(column, elevation.sin, elevation.cos);
+  const bool edge = other.range > 0.0 && other.face != hit.face && std::abs(other.range - hit.range) > kDepthEdge;
+  return edge ? other.range : 0.0;
 }
 
 void ScanSimulator::make(std::uint64_t begin, std::uint64_t end, std::vector<io::FreshPoint>& out) const {
@@ -85,21 +99,17 @@ void ScanSimulator::make_column(std::size_t station_index, std::uint64_t column,
   const SinCos azimuth = sin_cos_turns((static_cast<double>(column) + 0.5) / static_cast<double>(columns_));
   station.caster.start_column(scratch, azimuth.sin, azimuth.cos);
   const std::uint64_t key = derive_key(derive_key(derive_key(settings_.seed, 0), station_index), column);
-  double previous = 0.0;
   for (std::size_t row = 0; row < elevations_.size(); ++row) {
     const Direction& elevation = elevations_[row];
     const RayHit hit = station.caster.cast(scratch, elevation.sin, elevation.cos);
-    const double before = previous;
-    previous = hit.range;
     if (hit.range == 0.0) continue;
     PointRandom random(mix64(key + row * 0xd1342543de82ef95ULL));
     const Face& face = model_.faces[hit.face];
     double range = hit.range;
     bool real = true;
-    if (settings_.mixed_pixels > 0.0 && before > 0.0 && std::abs(before - range) > kDepthEdge &&
-        random.uniform() < settings_.mixed_pixels) {
-      const double weight = random.uniform();
-      range = weight * before + (1.0 - weight) * range;
+    const double other = settings_.mixed_pixels > 0.0 ? range_across_edge(station, scratch, row, hit) : 0.0;
+    if (other > 0.0 && random.uniform() < settings_.mixed_pixels) {
+      range += random.uniform() * (other - range);
       real = false;
     } else if (settings_.outliers > 0.0 && random.uniform() < settings_.outliers) {
       range *= random.uniform();

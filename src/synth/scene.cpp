@@ -50,7 +50,9 @@ const std::vector<std::string>& list_samplings() {
 
 struct Scene::Impl {
   explicit Impl(const SceneRequest& given)
-      : request(given), info(find_scene(given.scene)), options(resolve_options(info, given.options)),
+      : request(given),
+        info(find_scene(given.scene)),
+        options(resolve_options(info, given.options)),
         placement(given.rotate, {given.shift[0], given.shift[1], given.shift[2]}, given.seed) {
     validate(request);
     const Sampling sampling = parse_sampling(request.sampling);
@@ -59,6 +61,7 @@ struct Scene::Impl {
     model.stations.empty() ? prepare_surface(sampling) : prepare_scan();
     edges = model.edges;
     for (TruthEdge& edge : edges) edge = placement.apply(edge);
+    face_tree = evaluate::BoxTree(model.faces.size(), [this](std::size_t i) { return model.faces[i].bounds(); });
   }
 
   void prepare_surface(Sampling sampling) {
@@ -91,6 +94,7 @@ struct Scene::Impl {
   double spacing = 0.0;
   SceneModel model;
   std::vector<TruthEdge> edges;
+  evaluate::BoxTree face_tree;
   std::unique_ptr<PointUnits> units;
 };
 
@@ -99,10 +103,18 @@ Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
-const SceneInfo& Scene::info() const { return impl_->info; }
-double Scene::spacing() const { return impl_->spacing; }
-double Scene::expected_points() const { return impl_->units->expected_points(); }
-const std::vector<evaluate::TruthEdge>& Scene::edges() const { return impl_->edges; }
+const SceneInfo& Scene::info() const {
+  return impl_->info;
+}
+double Scene::spacing() const {
+  return impl_->spacing;
+}
+double Scene::expected_points() const {
+  return impl_->units->expected_points();
+}
+const std::vector<evaluate::TruthEdge>& Scene::edges() const {
+  return impl_->edges;
+}
 
 evaluate::Truth Scene::truth() const {
   using evaluate::exact_text;
@@ -131,7 +143,11 @@ std::array<std::array<double, 3>, 2> Scene::bounds() const {
 double Scene::distance(const std::array<double, 3>& point) const {
   const Vec3 local = impl_->placement.undo({point[0], point[1], point[2]});
   double best = std::numeric_limits<double>::infinity();
-  for (const Face& face : impl_->model.faces) best = std::min(best, face.distance(local));
+  double limit = best;
+  impl_->face_tree.search(local, limit, [&](std::uint32_t i) {
+    best = std::min(best, impl_->model.faces[i].distance(local));
+    limit = best * best;
+  });
   return best;
 }
 

@@ -9,9 +9,9 @@
 ///     for (std::vector<io::FreshPoint> block; stream->next(block);) writer.append(block);
 ///     evaluate::write_truth_csv(out, scene.truth());
 ///
-/// Laws: (1) the points depend on the request only: not on the machine, the block size or the number of threads; (2) without
-/// noise and outliers every point lies on a face, with an error of a few units in the last place; (3) truth edges lie on faces;
-/// (4) rotation and shift move points and truth alike.
+/// Laws: (1) the points depend on the request only: not on the machine, the block size or the number of threads; (2)
+/// without noise and outliers every point lies on a face, with an error of a few units in the last place; (3) truth
+/// edges lie on faces; (4) rotation and shift move points and truth alike.
 
 #include <array>
 #include <cstdint>
@@ -28,27 +28,29 @@ namespace arris::synth {
 
 struct SceneRequest {
   std::string scene;  ///< A name from list_scenes().
-  /// Data units, metres by default scenes; 0: the scene's default. Surface scenes: one point per spacing² of face (per spacing³
-  /// of volume). Scanned scenes: distance of neighbouring rays at 10 m range.
+  /// Data units, metres by default scenes; 0: the scene's default. Surface scenes: one point per spacing² of face (per
+  /// spacing³ of volume). Scanned scenes: distance of neighbouring rays at 10 m range.
   double spacing = 0.0;
   std::uint64_t points = 0;  ///< Above 0: choose the spacing that gives about so many points; spacing must then be 0.
   double noise = 0.0;        ///< Standard deviation, data units; per axis, scanned scenes: along the ray.
   /// Surface scenes only; a cell is one spacing² of a face, cut so that a whole number of cells spans the face:
-  /// "grid": the middle of every cell, so half a spacing from the face's sides; "jittered" (default): moved by up to 0.3 cells per
-  /// axis, uniformly; "random": a Poisson process of one point per cell on average; "gradient": the same, thinned along x so that
-  /// the local spacing grows linearly to sqrt(10) of `spacing` (density 10:1); "scan": lines 2 spacings apart with a point
-  /// every 1/2 spacing, each line with its own phase. Cells are cut anew on every face: no shared edge is sampled twice.
+  /// "grid": the middle of every cell, so half a spacing from the face's sides; "jittered" (default): moved by up to
+  /// 0.3 cells per axis, uniformly; "random": a Poisson process of one point per cell on average; "gradient": the same,
+  /// thinned along x so that the local spacing grows linearly to sqrt(10) of `spacing` (density 10:1); "scan": lines 2
+  /// spacings apart with a point every 1/2 spacing, each line with its own phase. Cells are cut anew on every face: no
+  /// shared edge is sampled twice.
   std::string sampling = "jittered";
   std::uint64_t seed = 1;
-  /// Share of points, [0, 1), that are put anywhere in the scene's box grown by 10 % (class 7); scanned scenes: at a random
-  /// range before the surface.
+  /// Share of points, [0, 1), that are put anywhere in the scene's box grown by 10 % (class 7); scanned scenes: at a
+  /// random range before the surface.
   double outliers = 0.0;
   std::array<double, 3> shift{0.0, 0.0, 0.0};  ///< Added last.
   bool rotate = false;                         ///< By a rotation drawn from the seed, about the scene's origin.
   std::map<std::string, double> options;       ///< Of the scene, see list_scenes().
 };
 
-/// Pulls the points. Memory: about 2 * block_points * sizeof(FreshPoint), more only if one row of a face is longer than that.
+/// Pulls the points. Memory: about 2 * block_points * sizeof(FreshPoint), more only if one row of a face is longer than
+/// that.
 class ScenePointStream {
  public:
   ~ScenePointStream();
@@ -62,8 +64,8 @@ class ScenePointStream {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Immutable; safe to use from several threads. FreshPoint::point_source_id is the number of the face from 1 (0: outlier), or of
-/// the station in scanned scenes.
+/// Immutable; safe to use from several threads. FreshPoint::point_source_id is the number of the face from 1 (0:
+/// outlier), or of the station in scanned scenes.
 class Scene {
  public:
   /// Throws ConfigError for anything in the request that is unknown or out of range.
@@ -73,14 +75,16 @@ class Scene {
   Scene& operator=(Scene&&) noexcept;
 
   const SceneInfo& info() const;
-  double spacing() const;          ///< The one given, chosen or default.
-  double expected_points() const;  ///< The stream delivers as many within a few percent (random samplings: sqrt of it more).
+  double spacing() const;  ///< The one given, chosen or default.
+  double expected_points()
+      const;  ///< The stream delivers as many within a few percent (random samplings: sqrt of it more).
   const std::vector<evaluate::TruthEdge>& edges() const;  ///< Rotated and shifted.
-  /// Edges and the properties scene, spacing, noise, sampling, seed, outliers, expected_points, shift, rotate and the options.
+  /// Edges and the properties scene, spacing, noise, sampling, seed, outliers, expected_points, shift, rotate and the
+  /// options.
   evaluate::Truth truth() const;
   /// Box of the faces, rotated and shifted, noise and outliers not counted: for the choice of a file's offset.
   std::array<std::array<double, 3>, 2> bounds() const;
-  /// Exact distance of a point (rotated and shifted) to the nearest face. O(faces).
+  /// Exact distance of a point (rotated and shifted) to the nearest face; O(log faces).
   double distance(const std::array<double, 3>& point) const;
 
   /// Several streams are independent. The scene must outlive its streams.

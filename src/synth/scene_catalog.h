@@ -24,7 +24,8 @@ using OptionValues = std::map<std::string, double>;
 struct SceneInfo {
   std::string name;
   std::string description;
-  double spacing = 0.0;  ///< Default point spacing, metres; scanned scenes: on a surface that faces the scanner at 10 m.
+  double spacing =
+      0.0;  ///< Default point spacing, metres; scanned scenes: on a surface that faces the scanner at 10 m.
   std::vector<SceneOption> options;
   /// @param spacing  for lengths that are given in spacings.
   SceneModel (*build)(const OptionValues& options, double spacing) = nullptr;

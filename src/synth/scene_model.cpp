@@ -12,7 +12,9 @@ namespace {
 void frame_from_normal(Face& face, const Vec3& normal) {
   face.ew = normalized(normal);
   const Vec3 size{std::abs(face.ew.x), std::abs(face.ew.y), std::abs(face.ew.z)};
-  const Vec3 helper = size.x <= size.y && size.x <= size.z ? Vec3{1, 0, 0} : size.y <= size.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  const Vec3 helper = size.x <= size.y && size.x <= size.z ? Vec3{1, 0, 0}
+                      : size.y <= size.z                   ? Vec3{0, 1, 0}
+                                                           : Vec3{0, 0, 1};
   face.eu = normalized(helper - dot(helper, face.ew) * face.ew);
   face.ev = cross(face.ew, face.eu);
 }

@@ -23,8 +23,8 @@ struct SceneModel {
   std::vector<TruthEdge> edges;
   std::vector<ScannerStation> stations;
 
-  /// The rectangle with corner `a` and sides a-b and a-d (perpendicular); its normal is (b - a) x (d - a). The reference is valid
-  /// until the next face is added.
+  /// The rectangle with corner `a` and sides a-b and a-d (perpendicular); its normal is (b - a) x (d - a). The
+  /// reference is valid until the next face is added.
   Face& rectangle(const Vec3& a, const Vec3& b, const Vec3& d, const Material& material);
   /// A planar simple polygon; u runs along its first side. The first two sides must not be parallel.
   Face& polygon(const std::vector<Vec3>& vertices, const Material& material);

@@ -14,7 +14,8 @@ const Material kWood{0.6, 1, 0xb000, 0x8000, 0x4c00};
 /// The twelve edges of an upright box; the faces are the caller's.
 void box_edges(SceneModel& model, const Vec3& low, const Vec3& high) {
   for (const double z : {low.z, high.z}) {
-    model.loop(EdgeKind::kConvex, "box", {{low.x, low.y, z}, {high.x, low.y, z}, {high.x, high.y, z}, {low.x, high.y, z}}, 90.0);
+    model.loop(EdgeKind::kConvex, "box",
+               {{low.x, low.y, z}, {high.x, low.y, z}, {high.x, high.y, z}, {low.x, high.y, z}}, 90.0);
   }
   for (const double x : {low.x, high.x}) {
     for (const double y : {low.y, high.y}) model.segment(EdgeKind::kConvex, "box", {x, y, low.z}, {x, y, high.z}, 90.0);
@@ -40,8 +41,10 @@ SceneModel build_block(const OptionValues& options, double /*spacing*/) {
     const Vec3 base{kMiddle, kMiddle, std::min(from, to)};
     model.cylinder(base, up, kTall, kRadius, kMetal);
     model.disc({kMiddle, kMiddle, to}, up, kRadius, kMetal);
-    model.circle(hollow ? EdgeKind::kRimConcave : EdgeKind::kRimConvex, "cylinder", {kMiddle, kMiddle, to}, up, kRadius, 90.0);
-    model.circle(hollow ? EdgeKind::kRimConvex : EdgeKind::kRimConcave, "joint", {kMiddle, kMiddle, from}, up, kRadius, 90.0);
+    model.circle(hollow ? EdgeKind::kRimConcave : EdgeKind::kRimConvex, "cylinder", {kMiddle, kMiddle, to}, up, kRadius,
+                 90.0);
+    model.circle(hollow ? EdgeKind::kRimConvex : EdgeKind::kRimConcave, "joint", {kMiddle, kMiddle, from}, up, kRadius,
+                 90.0);
   };
   round_part(kHeight, cavity ? kHeight - kTall : kHeight + kTall, cavity);
   round_part(0.0, -kTall, false);
@@ -58,7 +61,8 @@ SceneModel build_plates(const OptionValues& options, double spacing) {
     const Vec3 a{at, at, z}, b{at + kSide, at, z}, c{at + kSide, at + kSide, z}, d{at, at + kSide, z};
     model.rectangle(a, b, d, upper ? kMetal : kWood).circle_holes = {{{kMiddle, kMiddle}, kHole}};
     model.loop(EdgeKind::kBoundary, upper ? "upper" : "lower", {a, b, c, d});
-    model.circle(EdgeKind::kRimBoundary, upper ? "upper_hole" : "lower_hole", {at + kMiddle, at + kMiddle, z}, {0, 0, 1}, kHole);
+    model.circle(EdgeKind::kRimBoundary, upper ? "upper_hole" : "lower_hole", {at + kMiddle, at + kMiddle, z},
+                 {0, 0, 1}, kHole);
   }
   return model;
 }

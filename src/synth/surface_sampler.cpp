@@ -11,10 +11,11 @@ namespace arris::synth {
 
 namespace {
 
-constexpr double kJitter = 0.3;           // In cells, to either side.
-constexpr double kScanLineFactor = 2.0;   // Distance of scan lines in spacings; along a line points are 1/2 spacing apart.
+constexpr double kJitter = 0.3;  // In cells, to either side.
+constexpr double kScanLineFactor =
+    2.0;  // Distance of scan lines in spacings; along a line points are 1/2 spacing apart.
 constexpr double kSparsestFactor = 3.1622776601683795;  // Spacing at the sparse end of a gradient: density 10:1.
-constexpr double kOutlierMargin = 0.1;    // Of the longest side of the scene.
+constexpr double kOutlierMargin = 0.1;                  // Of the longest side of the scene.
 constexpr double kMostPoints = 1e15;
 
 /// Share of the full density at a place `t` in [0, 1] along the gradient: the local spacing grows linearly.
@@ -30,7 +31,8 @@ double gradient_share_at(const Box3& bounds, const Vec3& position) {
 
 std::uint64_t cells(double length, double pitch) {
   const double count = std::floor(length / pitch + 0.5);
-  if (!(count < kMostPoints)) throw ConfigError("the spacing is too small for this scene; give a larger one or fewer points");
+  if (!(count < kMostPoints))
+    throw ConfigError("the spacing is too small for this scene; give a larger one or fewer points");
   return count >= 1.0 ? static_cast<std::uint64_t>(count) : 1;
 }
 
@@ -162,7 +164,8 @@ void SurfaceSampler::make_row(const Raster& raster, std::uint64_t index, std::ve
     row.v_low = -face.radius * sin_cos_turns(0.5 * v_index / rows).cos;
     row.v_high = -face.radius * sin_cos_turns(0.5 * (v_index + 1.0) / rows).cos;
     const double share = sin_cos_turns(0.5 * (v_index + 0.5) / rows).sin;
-    row.columns = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(share * static_cast<double>(raster.columns) + 0.5));
+    row.columns =
+        std::max<std::uint64_t>(1, static_cast<std::uint64_t>(share * static_cast<double>(raster.columns) + 0.5));
   }
   const bool process = sampling_.sampling == Sampling::kRandom || sampling_.sampling == Sampling::kGradient ||
                        face.shape == Face::Shape::kVolume;
@@ -173,7 +176,8 @@ void SurfaceSampler::make_row(const Raster& raster, std::uint64_t index, std::ve
       continue;
     }
     const int points = poisson_1(PointRandom(mix64(key)).uniform());
-    for (int k = 1; k <= points; ++k) place(face, row, column, PointRandom(derive_key(key, static_cast<std::uint64_t>(k))), out);
+    for (int k = 1; k <= points; ++k)
+      place(face, row, column, PointRandom(derive_key(key, static_cast<std::uint64_t>(k))), out);
   }
 }
 
@@ -186,7 +190,8 @@ void SurfaceSampler::place(const Face& face, const Row& row, std::uint64_t colum
     b = random.uniform();
   } else {
     switch (sampling_.sampling) {
-      case Sampling::kGrid: break;
+      case Sampling::kGrid:
+        break;
       case Sampling::kJittered:
         a += kJitter * (2.0 * random.uniform() - 1.0);
         b += kJitter * (2.0 * random.uniform() - 1.0);
@@ -196,7 +201,9 @@ void SurfaceSampler::place(const Face& face, const Row& row, std::uint64_t colum
         a = random.uniform();
         b = random.uniform();
         break;
-      case Sampling::kScan: a = PointRandom(row.key).uniform(); break;  // One phase per line.
+      case Sampling::kScan:
+        a = PointRandom(row.key).uniform();
+        break;  // One phase per line.
     }
   }
   const double turn = (static_cast<double>(column) + a) / static_cast<double>(row.columns);
@@ -214,7 +221,9 @@ void SurfaceSampler::place(const Face& face, const Row& row, std::uint64_t colum
       position = face.origin + face.radius * angle.cos * face.eu + face.radius * angle.sin * face.ev + v * face.ew;
       break;
     }
-    case Face::Shape::kSphere: position = on_sphere(face, turn, v); break;
+    case Face::Shape::kSphere:
+      position = on_sphere(face, turn, v);
+      break;
     case Face::Shape::kVolume:
       position = face.at(turn * face.size_u, v) + (row.w_low + random.uniform() * (row.w_high - row.w_low)) * face.ew;
       break;

@@ -41,8 +41,10 @@ class SurfaceSampler final : public PointUnits {
   struct Row;
 
   void make_row(const Raster& raster, std::uint64_t row, std::vector<io::FreshPoint>& out) const;
-  void place(const Face& face, const Row& row, std::uint64_t column, PointRandom random, std::vector<io::FreshPoint>& out) const;
-  void finish(const Face& face, const Row& row, Vec3 position, PointRandom& random, std::vector<io::FreshPoint>& out) const;
+  void place(const Face& face, const Row& row, std::uint64_t column, PointRandom random,
+             std::vector<io::FreshPoint>& out) const;
+  void finish(const Face& face, const Row& row, Vec3 position, PointRandom& random,
+              std::vector<io::FreshPoint>& out) const;
 
   const SceneModel& model_;
   SurfaceSampling sampling_;

@@ -12,8 +12,8 @@ constexpr double kLargestCoordinate = 1e12;
 /// Share of the points that a window must hold for the rest to count as outliers.
 constexpr double kWindowShare = 0.999;
 
-/// Minimum, maximum and a coarse sparse histogram (at most 4096 cells; wider cells when more are needed). Everything it returns
-/// depends on the set of coordinates only, not on their order. Not thread-safe.
+/// Minimum, maximum and a coarse sparse histogram (at most 4096 cells; wider cells when more are needed). Everything it
+/// returns depends on the set of coordinates only, not on their order. Not thread-safe.
 class AxisRange {
  public:
   /// @param cell  width of a histogram cell to start from, > 0.
@@ -26,8 +26,9 @@ class AxisRange {
     double min = 0.0;
     double max = 0.0;
   };
-  /// The whole range if it is at most `length` long; otherwise the window of at most `length`, in whole histogram cells, with the
-  /// most points (the leftmost such) if it holds the share kWindowShare of them; otherwise nothing. No points: [0, 0].
+  /// The whole range if it is at most `length` long; otherwise the window of at most `length`, in whole histogram
+  /// cells, with the most points (the leftmost such) if it holds the share kWindowShare of them; otherwise nothing. No
+  /// points: [0, 0].
   std::optional<Window> window(double length) const;
 
  private:

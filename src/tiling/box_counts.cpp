@@ -33,7 +33,9 @@ LatticeBox PlanCell::box(int level) const {
 }
 
 BoxCounts::BoxCounts(std::vector<PlanCell> cells, int level)
-    : cells_(sorted(std::move(cells))), level_(level), tree_((cells_.size() + kBucket - 1) / kBucket, [&](std::size_t bucket) {
+    : cells_(sorted(std::move(cells))),
+      level_(level),
+      tree_((cells_.size() + kBucket - 1) / kBucket, [&](std::size_t bucket) {
         LatticeBox box;
         for (std::size_t i = bucket * kBucket; i < std::min(cells_.size(), (bucket + 1) * kBucket); ++i) {
           box.include(cells_[i].box(level));

@@ -1,6 +1,6 @@
 #pragma once
-/// @file A bounding volume tree over a fixed sequence of boxes, in the order given (best if neighbours in the sequence are
-/// neighbours in space, as tiles and sorted cells are).
+/// @file A bounding volume tree over a fixed sequence of boxes, in the order given (best if neighbours in the sequence
+/// are neighbours in space, as tiles and sorted cells are).
 
 #include <algorithm>
 #include <bit>
@@ -12,7 +12,8 @@
 
 namespace arris::tiling {
 
-/// Memory: 96 bytes per box. A walk visits O(log n + found) nodes for compact sequences. Safe to walk from several threads.
+/// Memory: 96 bytes per box. A walk visits O(log n + found) nodes for compact sequences. Safe to walk from several
+/// threads.
 class BoxTree {
  public:
   /// @param box_of(i)  the box of item i.
@@ -25,8 +26,9 @@ class BoxTree {
     }
   }
 
-  /// Calls visit(box, begin, end) for nodes from the root down in ascending order: box bounds the items [begin, end); a node with
-  /// end - begin == 1 is an item and visited once. The children of a node are visited only if visit returned true.
+  /// Calls visit(box, begin, end) for nodes from the root down in ascending order: box bounds the items [begin, end); a
+  /// node with end - begin == 1 is an item and visited once. The children of a node are visited only if visit returned
+  /// true.
   template <typename Visit>
   void walk(Visit&& visit) const {
     walk(1, 0, width_, visit);

@@ -11,14 +11,16 @@
 namespace arris::tiling {
 namespace {
 
-// Small upper nodes: with OpenVDB's usual 5-4-3 tree every far-away outlier costs 300 kB of internal nodes, here 0.6 kB.
+// Small upper nodes: with OpenVDB's usual 5-4-3 tree every far-away outlier costs 300 kB of internal nodes, here 0.6
+// kB.
 using Tree = openvdb::tree::Tree3<openvdb::Int32, 2, 3>::Type;
 using Leaf = Tree::LeafNodeType;
 using Cell = std::array<std::int32_t, 3>;
 
 constexpr int kLeafLog2 = 3;
 constexpr int kMaxLevel = 30;
-// Part of a cell's count that moves to the overflow map in one go; small enough that adding one can never overflow int32.
+// Part of a cell's count that moves to the overflow map in one go; small enough that adding one can never overflow
+// int32.
 constexpr std::int32_t kCarry = 1 << 30;
 
 openvdb::Index offset_in_leaf(std::int32_t x, std::int32_t y, std::int32_t z) {
@@ -50,7 +52,8 @@ class LeafCache {
     std::int32_t x = 0, y = 0, z = 0;
   };
   static std::size_t slot(std::int32_t x, std::int32_t y, std::int32_t z) {
-    const std::uint32_t hash = static_cast<std::uint32_t>(x) * 0x9E3779B1U ^ static_cast<std::uint32_t>(y) * 0x85EBCA77U ^
+    const std::uint32_t hash = static_cast<std::uint32_t>(x) * 0x9E3779B1U ^
+                               static_cast<std::uint32_t>(y) * 0x85EBCA77U ^
                                static_cast<std::uint32_t>(z) * 0xC2B2AE3DU;
     return hash >> 22;
   }
@@ -124,15 +127,22 @@ struct CellCounts::Impl {
   }
 };
 
-CellCounts::CellCounts(int first_level, std::size_t max_leaves) : impl_(std::make_unique<Impl>(first_level, max_leaves)) {}
+CellCounts::CellCounts(int first_level, std::size_t max_leaves)
+    : impl_(std::make_unique<Impl>(first_level, max_leaves)) {}
 CellCounts::CellCounts(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 CellCounts::~CellCounts() = default;
 CellCounts::CellCounts(CellCounts&&) noexcept = default;
 CellCounts& CellCounts::operator=(CellCounts&&) noexcept = default;
 
-int CellCounts::level() const { return impl_->level; }
-std::uint64_t CellCounts::total() const { return impl_->total; }
-std::size_t CellCounts::active_cells() const { return impl_->tree->activeVoxelCount(); }
+int CellCounts::level() const {
+  return impl_->level;
+}
+std::uint64_t CellCounts::total() const {
+  return impl_->total;
+}
+std::size_t CellCounts::active_cells() const {
+  return impl_->tree->activeVoxelCount();
+}
 
 void CellCounts::add(std::span<const LatticePoint> points) {
   Impl& impl = *impl_;

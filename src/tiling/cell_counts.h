@@ -11,14 +11,14 @@
 
 namespace arris::tiling {
 
-/// Counts points in cells of 2^level lattice steps (cell c covers [c << level, (c + 1) << level) per axis). Starts fine and
-/// coarsens by a factor of two whenever more than max_leaves leaves (of 8x8x8 cells) are active. The final level and the
-/// counts depend on the set of points only, not on their order: it is the finest level, from first_level on, at which the whole
-/// set fits. Counts above 2^31 - 1 are kept exactly.
+/// Counts points in cells of 2^level lattice steps (cell c covers [c << level, (c + 1) << level) per axis). Starts fine
+/// and coarsens by a factor of two whenever more than max_leaves leaves (of 8x8x8 cells) are active. The final level
+/// and the counts depend on the set of points only, not on their order: it is the finest level, from first_level on, at
+/// which the whole set fits. Counts above 2^31 - 1 are kept exactly.
 ///
-/// Memory: at most 2.8 kB per leaf (23 MB for 8192 leaves wherever they lie), half as much again for a moment while coarsening.
-/// Speed: about 100 M points/s when neighbours in the input are neighbours in space, a hash or map look-up per point otherwise.
-/// Not thread-safe.
+/// Memory: at most 2.8 kB per leaf (23 MB for 8192 leaves wherever they lie), half as much again for a moment while
+/// coarsening. Speed: about 100 M points/s when neighbours in the input are neighbours in space, a hash or map look-up
+/// per point otherwise. Not thread-safe.
 class CellCounts {
  public:
   /// @param first_level  level to start from, 0..30.
@@ -31,8 +31,9 @@ class CellCounts {
   void add(std::span<const LatticePoint> points);
   /// As `count` times add() of the same point, count >= 0.
   void add(const LatticePoint& point, std::uint64_t count);
-  /// Takes points away again. Calls emptied(cell box) for every cell whose last point went, once per such event. Returns the number
-  /// of points that were not there to be taken (0 unless the caller mixed up its sets); they change nothing.
+  /// Takes points away again. Calls emptied(cell box) for every cell whose last point went, once per such event.
+  /// Returns the number of points that were not there to be taken (0 unless the caller mixed up its sets); they change
+  /// nothing.
   std::size_t remove(std::span<const LatticePoint> points, const std::function<void(const LatticeBox& cell)>& emptied);
 
   int level() const;

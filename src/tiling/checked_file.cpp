@@ -49,7 +49,8 @@ void sync_folder(const std::filesystem::path& folder) {
 }  // namespace
 
 void throw_io_error(const std::filesystem::path& path, const char* what, int reason, std::uint64_t needed_bytes) {
-  std::string message = fmt::format("{}: {} failed: {}", printable(path.string()), what, std::generic_category().message(reason));
+  std::string message =
+      fmt::format("{}: {} failed: {}", printable(path.string()), what, std::generic_category().message(reason));
   if (reason == ENOSPC || reason == EDQUOT || reason == EFBIG) {
     struct statvfs space {};
     if (::statvfs(path.parent_path().c_str(), &space) == 0) {
@@ -71,13 +72,22 @@ struct Hasher::State {
   ~State() { XXH3_freeState(xxh); }
 };
 
-Hasher::Hasher() : state_(std::make_unique<State>()) { reset(); }
+Hasher::Hasher() : state_(std::make_unique<State>()) {
+  reset();
+}
 Hasher::~Hasher() = default;
-void Hasher::reset() { XXH3_64bits_reset(state_->xxh); }
-void Hasher::update(const void* data, std::size_t size_bytes) { XXH3_64bits_update(state_->xxh, data, size_bytes); }
-std::uint64_t Hasher::digest() const { return XXH3_64bits_digest(state_->xxh); }
+void Hasher::reset() {
+  XXH3_64bits_reset(state_->xxh);
+}
+void Hasher::update(const void* data, std::size_t size_bytes) {
+  XXH3_64bits_update(state_->xxh, data, size_bytes);
+}
+std::uint64_t Hasher::digest() const {
+  return XXH3_64bits_digest(state_->xxh);
+}
 
-FileReader::FileReader(std::filesystem::path path) : path_(std::move(path)), descriptor_(open_checked(path_, O_RDONLY, 0)) {
+FileReader::FileReader(std::filesystem::path path)
+    : path_(std::move(path)), descriptor_(open_checked(path_, O_RDONLY, 0)) {
   try {
     size_bytes_ = file_size_bytes(descriptor_, path_);
   } catch (...) {
@@ -86,7 +96,9 @@ FileReader::FileReader(std::filesystem::path path) : path_(std::move(path)), des
   }
 }
 
-FileReader::~FileReader() { ::close(descriptor_); }
+FileReader::~FileReader() {
+  ::close(descriptor_);
+}
 
 void FileReader::rewind() {
   if (::lseek(descriptor_, 0, SEEK_SET) < 0) throw_io_error(path_, "seek", errno);
@@ -104,14 +116,16 @@ void FileReader::read_exactly(std::span<std::byte> buffer) {
   while (!buffer.empty()) {
     const std::size_t got = read(buffer);
     if (got == 0) {
-      throw IoError(fmt::format("{}: ended early; the file was damaged after it was written, run again with --no-resume",
-                                printable(path_.string())));
+      throw IoError(
+          fmt::format("{}: ended early; the file was damaged after it was written, run again with --no-resume",
+                      printable(path_.string())));
     }
     buffer = buffer.subspan(got);
   }
 }
 
-HashingSource::HashingSource(FileReader& file) : file_(file), buffer_(std::make_unique_for_overwrite<char[]>(kBufferBytes)) {}
+HashingSource::HashingSource(FileReader& file)
+    : file_(file), buffer_(std::make_unique_for_overwrite<char[]>(kBufferBytes)) {}
 
 HashingSource::int_type HashingSource::underflow() {
   if (gptr() < egptr()) return traits_type::to_int_type(*gptr());
@@ -148,7 +162,9 @@ HashingSink::~HashingSink() {
   if (!committed_) ::unlink(partial_path_.c_str());
 }
 
-std::uint64_t HashingSink::size_bytes() const { return written_bytes_ + static_cast<std::uint64_t>(pptr() - pbase()); }
+std::uint64_t HashingSink::size_bytes() const {
+  return written_bytes_ + static_cast<std::uint64_t>(pptr() - pbase());
+}
 
 void HashingSink::write_out(const char* data, std::size_t size) {
   hasher_.update(data, size);
@@ -201,8 +217,8 @@ void HashingSink::commit() {
   flush_buffer();
   if (::fsync(descriptor_) != 0) fail("fsync", errno);
   if (const std::uint64_t size = file_size_bytes(descriptor_, partial_path_); size != written_bytes_) {
-    throw IoError(fmt::format("{}: {} bytes were written but the file holds {}; check the disk", printable(path_.string()),
-                              written_bytes_, size));
+    throw IoError(fmt::format("{}: {} bytes were written but the file holds {}; check the disk",
+                              printable(path_.string()), written_bytes_, size));
   }
   const int descriptor = std::exchange(descriptor_, -1);
   if (::close(descriptor) != 0 && errno != EINTR) fail("close", errno);

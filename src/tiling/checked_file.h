@@ -10,7 +10,8 @@
 
 namespace arris::tiling {
 
-/// IoError: "<path>: <what> failed: <reason>", and for a full disk how much is free and (if not 0) how much more is needed.
+/// IoError: "<path>: <what> failed: <reason>", and for a full disk how much is free and (if not 0) how much more is
+/// needed.
 [[noreturn]] void throw_io_error(const std::filesystem::path& path, const char* what, int reason,
                                  std::uint64_t needed_bytes = 0);
 
@@ -71,8 +72,9 @@ class HashingSource : public std::streambuf {
   std::unique_ptr<char[]> buffer_;
 };
 
-/// Output stream buffer to "<path>.partial", which commit() turns into <path>. Removes the partial file unless committed.
-/// Failures are IoErrors thrown through the stream (set its exception mask to badbit). Only tells its position, cannot seek.
+/// Output stream buffer to "<path>.partial", which commit() turns into <path>. Removes the partial file unless
+/// committed. Failures are IoErrors thrown through the stream (set its exception mask to badbit). Only tells its
+/// position, cannot seek.
 class HashingSink : public std::streambuf {
  public:
   /// @param needed_bytes  predicted size, for the message of a full disk.

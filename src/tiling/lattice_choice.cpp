@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kMultipleTolerance = 1e-12;
 constexpr double kSmallestStep = 1e-9;
-constexpr double kOriginSteps = 65536.0;                  // Origins sit on multiples of 2^16 steps.
-constexpr double kLongestAxisSteps = 2147483648.0;        // +-2^30 steps around the origin.
-constexpr double kHistogramCellSteps = 67108864.0;        // 2^26.
+constexpr double kOriginSteps = 65536.0;            // Origins sit on multiples of 2^16 steps.
+constexpr double kLongestAxisSteps = 2147483648.0;  // +-2^30 steps around the origin.
+constexpr double kHistogramCellSteps = 67108864.0;  // 2^26.
 constexpr double kInt32Min = -2147483648.0;
 constexpr double kInt32Max = 2147483647.0;
 
@@ -36,7 +36,8 @@ std::int64_t whole_multiple(double coarse, double fine) {
 }
 
 LatticeChoice::LatticeChoice(const std::vector<io::SourceInfo>& sources, double requested_step) : sources_(sources) {
-  if (!std::isfinite(requested_step) || requested_step < 0.0 || (requested_step > 0.0 && requested_step < kSmallestStep)) {
+  if (!std::isfinite(requested_step) || requested_step < 0.0 ||
+      (requested_step > 0.0 && requested_step < kSmallestStep)) {
     throw ConfigError(fmt::format("lattice step {} is not valid: give 0 (automatic) or a length of at least {}",
                                   requested_step, kSmallestStep));
   }

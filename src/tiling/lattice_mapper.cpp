@@ -43,7 +43,8 @@ Mapped LatticeMapper::map_world(const std::array<double, 3>& world, LatticePoint
     index[axis] = lattice_.index(static_cast<int>(axis), world[axis]);
     if (!fits_int32(index[axis])) return Mapped::kOutOfRange;
   }
-  position = {static_cast<std::int32_t>(index[0]), static_cast<std::int32_t>(index[1]), static_cast<std::int32_t>(index[2])};
+  position = {static_cast<std::int32_t>(index[0]), static_cast<std::int32_t>(index[1]),
+              static_cast<std::int32_t>(index[2])};
   return Mapped::kOk;
 }
 

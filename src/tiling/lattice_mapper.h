@@ -13,9 +13,9 @@ namespace arris::tiling {
 /// What became of a point's coordinates.
 enum class Mapped : std::uint8_t { kOk, kNonFinite, kOutOfRange };
 
-/// For LAS sources whose scales are whole multiples of the step the mapping is integer arithmetic: exact where the offset agrees with
-/// the lattice too, else the same rounding for every point. Other coordinates go to the nearest lattice index, half away from zero.
-/// Immutable; safe to use from several threads.
+/// For LAS sources whose scales are whole multiples of the step the mapping is integer arithmetic: exact where the
+/// offset agrees with the lattice too, else the same rounding for every point. Other coordinates go to the nearest
+/// lattice index, half away from zero. Immutable; safe to use from several threads.
 class LatticeMapper {
  public:
   LatticeMapper(const std::vector<io::SourceInfo>& sources, const Lattice& lattice);

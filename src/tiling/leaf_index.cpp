@@ -66,7 +66,9 @@ void LeafIndex::coarsen() {
 
 LatticePoint LeafIndex::origin(std::size_t leaf) const {
   const LatticePoint& key = keys_[leaf];
-  const auto scaled = [&](std::int32_t v) { return static_cast<std::int32_t>(std::int64_t{v} * (std::int64_t{1} << level_)); };
+  const auto scaled = [&](std::int32_t v) {
+    return static_cast<std::int32_t>(std::int64_t{v} * (std::int64_t{1} << level_));
+  };
   return {scaled(key.x), scaled(key.y), scaled(key.z)};
 }
 

@@ -11,8 +11,9 @@
 
 namespace arris::tiling {
 
-/// The leaves of 2^level steps a side that hold points, made in one pass: it starts with small leaves and doubles their side whenever there
-/// are more than the points can fill. Memory: about 64 bytes per leaf and 8 bytes per point (4 after grouping).
+/// The leaves of 2^level steps a side that hold points, made in one pass: it starts with small leaves and doubles their
+/// side whenever there are more than the points can fill. Memory: about 64 bytes per leaf and 8 bytes per point (4
+/// after grouping).
 class LeafIndex {
  public:
   /// @param first_level, last_level  smallest and largest leaf; the largest is kept however many leaves there are.
@@ -23,8 +24,10 @@ class LeafIndex {
   std::size_t size() const { return keys_.size(); }
   /// Lowest corner of leaf `leaf`.
   LatticePoint origin(std::size_t leaf) const;
-  /// Fills `order` with the indices of all points, leaf by leaf, ascending within a leaf; `begin` gets size() + 1 starts.
-  void group(std::span<const LatticePoint> points, std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& begin) const;
+  /// Fills `order` with the indices of all points, leaf by leaf, ascending within a leaf; `begin` gets size() + 1
+  /// starts.
+  void group(std::span<const LatticePoint> points, std::vector<std::uint32_t>& order,
+             std::vector<std::uint32_t>& begin) const;
 
  private:
   std::uint32_t find_or_add(const LatticePoint& key);
@@ -33,8 +36,8 @@ class LeafIndex {
   LatticePoint key_of(const LatticePoint& p) const { return {p.x >> level_, p.y >> level_, p.z >> level_}; }
 
   int level_;
-  std::vector<LatticePoint> keys_;     // Positions >> level_.
-  std::vector<std::uint32_t> slots_;   // Open addressing: index into keys_ + 1, 0 = free.
+  std::vector<LatticePoint> keys_;    // Positions >> level_.
+  std::vector<std::uint32_t> slots_;  // Open addressing: index into keys_ + 1, 0 = free.
 };
 
 }  // namespace arris::tiling

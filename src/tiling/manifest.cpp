@@ -19,7 +19,9 @@ using nlohmann::json;
 constexpr int kVersion = 1;
 constexpr std::size_t kCheckChars = 17;  // 16 hexadecimal digits and a blank.
 
-std::filesystem::path manifest_path(const std::filesystem::path& folder) { return folder / "manifest.jsonl"; }
+std::filesystem::path manifest_path(const std::filesystem::path& folder) {
+  return folder / "manifest.jsonl";
+}
 
 std::string check_of(std::string_view text) {
   Hasher hasher;
@@ -37,7 +39,9 @@ json header(const Lattice& lattice, std::size_t tiles, const std::string& parame
           {"parameters", parameters_hash}};
 }
 
-json as_json(const LatticeBox& box) { return {box.min[0], box.min[1], box.min[2], box.max[0], box.max[1], box.max[2]}; }
+json as_json(const LatticeBox& box) {
+  return {box.min[0], box.min[1], box.min[2], box.max[0], box.max[1], box.max[2]};
+}
 
 /// The JSON of a line whose checksum fits.
 std::optional<json> parse_line(const std::string& line) {
@@ -64,7 +68,9 @@ Manifest::Manifest(const std::filesystem::path& folder, const Lattice& lattice, 
   }
 }
 
-Manifest::~Manifest() { ::close(descriptor_); }
+Manifest::~Manifest() {
+  ::close(descriptor_);
+}
 
 void Manifest::append(const ManifestEntry& entry, const PlannedTile& tile) {
   const json line = {{"tile", entry.tile},         {"points", entry.points},
@@ -85,8 +91,9 @@ void Manifest::append_line(std::string line) {
   if (::fdatasync(descriptor_) != 0) throw_io_error(path_, "fdatasync", errno);
 }
 
-std::optional<std::map<std::size_t, ManifestEntry>> read_manifest(const std::filesystem::path& folder, const Lattice& lattice,
-                                                                  std::size_t tiles, const std::string& parameters_hash) {
+std::optional<std::map<std::size_t, ManifestEntry>> read_manifest(const std::filesystem::path& folder,
+                                                                  const Lattice& lattice, std::size_t tiles,
+                                                                  const std::string& parameters_hash) {
   std::ifstream file(manifest_path(folder));
   std::string line;
   if (!std::getline(file, line)) return std::nullopt;

@@ -22,13 +22,14 @@ struct ManifestEntry {
   friend bool operator==(const ManifestEntry&, const ManifestEntry&) = default;
 };
 
-/// "manifest.jsonl": a first line for the whole store (version, lattice, parameters' hash, number of tiles), then a line per built tile.
-/// Lines are appended with one write each and synced; a line whose checksum does not fit (torn by a crash) ends the list. Not
-/// thread-safe.
+/// "manifest.jsonl": a first line for the whole store (version, lattice, parameters' hash, number of tiles), then a
+/// line per built tile. Lines are appended with one write each and synced; a line whose checksum does not fit (torn by
+/// a crash) ends the list. Not thread-safe.
 class Manifest {
  public:
   /// Starts a new manifest, replacing an old one. Throws IoError.
-  Manifest(const std::filesystem::path& folder, const Lattice& lattice, std::size_t tiles, const std::string& parameters_hash);
+  Manifest(const std::filesystem::path& folder, const Lattice& lattice, std::size_t tiles,
+           const std::string& parameters_hash);
   ~Manifest();
   Manifest(const Manifest&) = delete;
   Manifest& operator=(const Manifest&) = delete;
@@ -42,9 +43,10 @@ class Manifest {
   int descriptor_ = -1;
 };
 
-/// The intact entries of a folder's manifest by tile, if its first line is that of the same lattice, parameters and number of tiles;
-/// nothing otherwise.
-std::optional<std::map<std::size_t, ManifestEntry>> read_manifest(const std::filesystem::path& folder, const Lattice& lattice,
-                                                                  std::size_t tiles, const std::string& parameters_hash);
+/// The intact entries of a folder's manifest by tile, if its first line is that of the same lattice, parameters and
+/// number of tiles; nothing otherwise.
+std::optional<std::map<std::size_t, ManifestEntry>> read_manifest(const std::filesystem::path& folder,
+                                                                  const Lattice& lattice, std::size_t tiles,
+                                                                  const std::string& parameters_hash);
 
 }  // namespace arris::tiling

@@ -22,7 +22,8 @@ SpoolWriter::Limits spool_limits(const TilePlan& plan, const PartitionOptions& o
 }  // namespace
 
 struct Partitioner::Impl {
-  Impl(const CellCounts& counts, const TilePlan& plan, const PartitionOptions& options, std::function<void(std::size_t)> on_closed)
+  Impl(const CellCounts& counts, const TilePlan& plan, const PartitionOptions& options,
+       std::function<void(std::size_t)> on_closed)
       : remaining(counts.coarsened(counts.level())),
         router(plan),
         spool(options.folder, plan.tiles.size(), spool_limits(plan, options)),
@@ -46,7 +47,7 @@ struct Partitioner::Impl {
     closed(tile);
   }
 
-  CellCounts remaining;                   // Points still to come, per cell.
+  CellCounts remaining;  // Points still to come, per cell.
   TileRouter router;
   SpoolWriter spool;
   std::vector<std::uint64_t> open_cells;  // Per tile: cells that touch its covered box and still expect points.
@@ -78,16 +79,16 @@ void Partitioner::add(std::span<const LatticePoint> points, std::uint64_t first_
     }
   });
   if (unexpected > 0) {
-    throw InputError(fmt::format("{} of the points from number {} on were not there in the first pass: {}", unexpected, first_id,
-                                 kChanged));
+    throw InputError(fmt::format("{} of the points from number {} on were not there in the first pass: {}", unexpected,
+                                 first_id, kChanged));
   }
 }
 
 PartitionResult Partitioner::finish() {
   Impl& impl = *impl_;
   if (impl.remaining.total() > 0) {
-    throw InputError(fmt::format("{} points of the first pass are missing in the second: {}", grouped(impl.remaining.total()),
-                                 kChanged));
+    throw InputError(fmt::format("{} points of the first pass are missing in the second: {}",
+                                 grouped(impl.remaining.total()), kChanged));
   }
   for (std::size_t tile = 0; tile < impl.untouched.size(); ++tile) {
     if (impl.untouched[tile]) impl.close(tile);

@@ -27,12 +27,13 @@ struct PartitionResult {
   std::uint64_t spooled_bytes = 0;
 };
 
-/// The work of partition_points on batches of lattice points. Memory: the spool buffers, a copy of the survey's counts, and about
-/// 150 bytes per tile. Not thread-safe.
+/// The work of partition_points on batches of lattice points. Memory: the spool buffers, a copy of the survey's counts,
+/// and about 150 bytes per tile. Not thread-safe.
 ///
-/// Laws: (1) when closed(tile) is called, the tile's spool file holds exactly the points inside its covered box; (2) every tile is
-/// closed exactly once: during add() if the survey's counts prove that no later point can belong to it, else in finish() (tiles
-/// that no survey cell touches); (3) finish() returns only if the points added are, cell by cell, as many as the survey counted.
+/// Laws: (1) when closed(tile) is called, the tile's spool file holds exactly the points inside its covered box; (2)
+/// every tile is closed exactly once: during add() if the survey's counts prove that no later point can belong to it,
+/// else in finish() (tiles that no survey cell touches); (3) finish() returns only if the points added are, cell by
+/// cell, as many as the survey counted.
 class Partitioner {
  public:
   Partitioner(const CellCounts& counts, const TilePlan& plan, const PartitionOptions& options,
@@ -41,7 +42,8 @@ class Partitioner {
   Partitioner(const Partitioner&) = delete;
   Partitioner& operator=(const Partitioner&) = delete;
 
-  /// Adds points with ids first_id, first_id + 1, ... Throws InputError for points that the survey did not count, IoError.
+  /// Adds points with ids first_id, first_id + 1, ... Throws InputError for points that the survey did not count,
+  /// IoError.
   void add(std::span<const LatticePoint> points, std::uint64_t first_id);
   /// Throws InputError if points are missing that the survey counted.
   PartitionResult finish();
@@ -51,9 +53,10 @@ class Partitioner {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Streams all inputs once through a Partitioner. `closed(tile)` is called (from this thread) as soon as no later point can belong to
-/// the tile, which the survey's cell counts prove; its spool file is complete then. Every tile is closed exactly once before this
-/// returns. Throws InputError if the inputs no longer hold what the survey counted (changed while running), IoError, Cancelled.
+/// Streams all inputs once through a Partitioner. `closed(tile)` is called (from this thread) as soon as no later point
+/// can belong to the tile, which the survey's cell counts prove; its spool file is complete then. Every tile is closed
+/// exactly once before this returns. Throws InputError if the inputs no longer hold what the survey counted (changed
+/// while running), IoError, Cancelled.
 PartitionResult partition_points(io::InputSet& inputs, const Survey& survey, const TilePlan& plan,
                                  const PartitionOptions& options, const std::function<void(std::size_t tile)>& closed,
                                  ProgressSink& progress, const CancelToken& cancel);

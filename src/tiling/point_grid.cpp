@@ -32,7 +32,8 @@ using IdArray = openvdb::points::TypedAttributeArray<std::int64_t>;
 constexpr int kLeafLog2 = 3;
 constexpr int kFixedVoxelLog2 = 13;  // Above, 16 bits cannot tell the steps of a voxel apart safely.
 constexpr int kFloatVoxelLog2 = 18;  // Three coordinates within a leaf still fit a 64-bit Z-order key.
-// Emptier fixed-point leaves (2.7 kB each whatever they hold) cost more than the 6 bytes by which float positions are larger.
+// Emptier fixed-point leaves (2.7 kB each whatever they hold) cost more than the 6 bytes by which float positions are
+// larger.
 constexpr std::size_t kSparsePointsPerLeaf = 256;
 constexpr std::size_t kGrainLeaves = 16;
 constexpr const char* kVoxelMeta = "storage_voxel_log2";
@@ -43,8 +44,8 @@ void initialize_openvdb() {
   std::call_once(once, [] { openvdb::initialize(); });
 }
 
-/// Position within a voxel of 2^log2 steps as OpenVDB stores it, in [-0.5, 0.5): the middle of the step, so that the codec's
-/// truncation cannot reach the next one.
+/// Position within a voxel of 2^log2 steps as OpenVDB stores it, in [-0.5, 0.5): the middle of the step, so that the
+/// codec's truncation cannot reach the next one.
 class StepCodec {
  public:
   explicit StepCodec(int log2) : steps_(std::ldexp(1.0F, log2)), per_step_(std::ldexp(1.0F, -log2)) {}
@@ -86,7 +87,8 @@ class VoxelOrder {
 };
 
 template <typename Codec>
-void write_positions(Leaf& leaf, std::span<const LatticePoint> positions, const std::vector<std::uint32_t>& order, int log2) {
+void write_positions(Leaf& leaf, std::span<const LatticePoint> positions, const std::vector<std::uint32_t>& order,
+                     int log2) {
   openvdb::points::AttributeWriteHandle<openvdb::Vec3f, Codec> handle(leaf.attributeArray("P"));
   const StepCodec codec(log2);
   const std::int32_t mask = (std::int32_t{1} << log2) - 1;
@@ -154,7 +156,8 @@ PointGrid::PointGrid(std::span<const LatticePoint> positions, std::span<const st
                      const std::map<std::string, std::string>& metadata)
     : impl_(std::make_unique<Impl>()) {
   if (positions.size() >= 0xffffffffULL) {
-    throw ConfigError(fmt::format("a tile of {} points is too large; use tiles of fewer than 2^32 points", positions.size()));
+    throw ConfigError(
+        fmt::format("a tile of {} points is too large; use tiles of fewer than 2^32 points", positions.size()));
   }
   initialize_openvdb();
   LeafIndex index(positions, kLeafLog2, kLeafLog2 + kFixedVoxelLog2, kPointsPerLeaf);
@@ -174,8 +177,9 @@ PointGrid::PointGrid(std::span<const LatticePoint> positions, std::span<const st
       const auto points = std::span(order).subspan(begin[i], begin[i + 1] - begin[i]);
       const LatticePoint origin = index.origin(i);
       auto leaf = std::make_unique<Leaf>(openvdb::Coord(origin.x >> log2, origin.y >> log2, origin.z >> log2));
-      leaf->replaceAttributeSet(new openvdb::points::AttributeSet(descriptor, static_cast<openvdb::Index>(points.size())),
-                                /*allowMismatchingDescriptors=*/true);
+      leaf->replaceAttributeSet(
+          new openvdb::points::AttributeSet(descriptor, static_cast<openvdb::Index>(points.size())),
+          /*allowMismatchingDescriptors=*/true);
       voxels.sort(positions, points, log2);
       leaf->setOffsets(voxels.offsets());
       if (sparse) {
@@ -226,7 +230,9 @@ SortedPoints read_point_grid(std::istream& stream) {
   std::vector<Leaf*> leaves;
   grid->tree().getNodes(leaves);
   std::ranges::sort(leaves, [](const Leaf* a, const Leaf* b) {
-    const auto corner = [](const Leaf* leaf) { return LatticePoint{leaf->origin().x(), leaf->origin().y(), leaf->origin().z()}; };
+    const auto corner = [](const Leaf* leaf) {
+      return LatticePoint{leaf->origin().x(), leaf->origin().y(), leaf->origin().z()};
+    };
     return z_order_less(corner(a), corner(b));
   });
   std::vector<std::size_t> begin(leaves.size() + 1, 0);

@@ -20,10 +20,11 @@ struct SortedPoints {
   std::vector<std::uint64_t> ids;
 };
 
-/// A grid "points" with the attributes "P" and "id" (int64), whose world space is lattice steps. It is written when asked, so that
-/// the caller may drop its points first. Storage voxels are 2^v steps: v is the smallest for which a leaf of 8^3 voxels holds
-/// kPointsPerLeaf points on average. Up to v = 13 positions are 16-bit fixed point (an error below voxel / 65535 cannot leave a
-/// step); clouds that would leave such leaves half empty store float positions with v up to 18.
+/// A grid "points" with the attributes "P" and "id" (int64), whose world space is lattice steps. It is written when
+/// asked, so that the caller may drop its points first. Storage voxels are 2^v steps: v is the smallest for which a
+/// leaf of 8^3 voxels holds kPointsPerLeaf points on average. Up to v = 13 positions are 16-bit fixed point (an error
+/// below voxel / 65535 cannot leave a step); clouds that would leave such leaves half empty store float positions with
+/// v up to 18.
 ///
 /// Peak memory while it is made: tile_store.h, build_bytes. Runs in parallel (core/parallel.h).
 class PointGrid {

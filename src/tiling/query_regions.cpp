@@ -23,7 +23,9 @@ std::uint64_t cell_key(int level, std::int64_t x, std::int64_t y, std::int64_t z
 }  // namespace
 
 void QueryRegions::add(const LatticePoint& position, std::int64_t reach_steps) {
-  const int level = std::min(kLevels - 1, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(reach_steps, 1) - 1))));
+  const int level = std::min(
+      kLevels - 1,
+      static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(reach_steps, 1) - 1))));
   levels_ |= std::uint64_t{1} << level;
   std::array<std::int64_t, 3> low{};
   std::array<std::int64_t, 3> high{};
@@ -50,7 +52,8 @@ bool QueryRegions::contains(const LatticePoint& p) const {
   if (!bounds_.contains(p)) return false;
   for (std::uint64_t levels = levels_; levels != 0; levels &= levels - 1) {
     const int level = std::countr_zero(levels);
-    if (has(cell_key(level, std::int64_t{p.x} >> level, std::int64_t{p.y} >> level, std::int64_t{p.z} >> level))) return true;
+    if (has(cell_key(level, std::int64_t{p.x} >> level, std::int64_t{p.y} >> level, std::int64_t{p.z} >> level)))
+      return true;
   }
   return false;
 }

@@ -8,8 +8,8 @@
 
 namespace arris::tiling {
 
-/// Union of the boxes position +- reach, rounded up to absolute cells whose size follows the reach of each query (at most
-/// 27 cells a query). contains() may say yes outside the union, never no inside it. Thread-safe for reading.
+/// Union of the boxes position +- reach, rounded up to absolute cells whose size follows the reach of each query (at
+/// most 27 cells a query). contains() may say yes outside the union, never no inside it. Thread-safe for reading.
 class QueryRegions {
  public:
   /// @param reach_steps  >= 0.
@@ -25,10 +25,10 @@ class QueryRegions {
   void grow();
 
   static constexpr int kLevels = 33;
-  std::uint64_t levels_ = 0;             ///< Bit l: cells of 2^l steps are in use.
+  std::uint64_t levels_ = 0;  ///< Bit l: cells of 2^l steps are in use.
   LatticeBox bounds_;
-  std::vector<LatticeBox> cells_;        ///< Every inserted cell, for touches().
-  std::vector<std::uint64_t> table_;     ///< Open addressing; 0 = empty slot.
+  std::vector<LatticeBox> cells_;     ///< Every inserted cell, for touches().
+  std::vector<std::uint64_t> table_;  ///< Open addressing; 0 = empty slot.
   std::size_t used_ = 0;
 };
 

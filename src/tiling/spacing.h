@@ -10,14 +10,15 @@ namespace arris::tiling {
 constexpr std::uint64_t kCoveredCellPoints = 16;
 
 struct SpacingEstimate {
-  int level = -1;        ///< Level of the cells it was made from: the finest at which the median count is large enough; -1 if none is.
-  double steps = 0.0;    ///< Spacing in lattice steps, >= 1; 0 if there are no points.
+  int level = -1;  ///< Level of the cells it was made from: the finest at which the median count is large enough; -1 if
+                   ///< none is.
+  double steps = 0.0;  ///< Spacing in lattice steps, >= 1; 0 if there are no points.
 };
 
-/// Median over points of cell side / sqrt(count of the cell), on the finest level from counts.level() on at which the median over
-/// points of the count is at least kCoveredCellPoints. Clouds that reach this nowhere (a few dozen points, a thousand if they straddle
-/// the origin): longest side of `bounds` / sqrt(points). Never below one step (duplicates). Memory: 8 bytes per active cell, and a copy of
-/// the counts where coarser levels are needed.
+/// Median over points of cell side / sqrt(count of the cell), on the finest level from counts.level() on at which the
+/// median over points of the count is at least kCoveredCellPoints. Clouds that reach this nowhere (a few dozen points,
+/// a thousand if they straddle the origin): longest side of `bounds` / sqrt(points). Never below one step (duplicates).
+/// Memory: 8 bytes per active cell, and a copy of the counts where coarser levels are needed.
 SpacingEstimate estimate_spacing(const CellCounts& counts, const LatticeBox& bounds);
 
 /// Spacing in steps in a cell of 2^level steps that holds `count` >= 1 points; within [1, side].

@@ -35,9 +35,13 @@ std::filesystem::path spool_path(const std::filesystem::path& folder, std::size_
 }
 
 SpoolWriter::SpoolWriter(std::filesystem::path folder, std::size_t tiles, const Limits& limits)
-    : folder_(std::move(folder)), limits_(limits), block_records_(records_per_block(limits.buffer_bytes, tiles)), tiles_(tiles) {
+    : folder_(std::move(folder)),
+      limits_(limits),
+      block_records_(records_per_block(limits.buffer_bytes, tiles)),
+      tiles_(tiles) {
   const std::size_t block_bytes = block_records_ * kSpoolRecordBytes;
-  const std::size_t blocks = std::clamp<std::size_t>(limits.buffer_bytes / block_bytes, 1, std::max<std::size_t>(tiles, 1));
+  const std::size_t blocks =
+      std::clamp<std::size_t>(limits.buffer_bytes / block_bytes, 1, std::max<std::size_t>(tiles, 1));
   pool_ = std::make_unique_for_overwrite<std::byte[]>(blocks * block_bytes);
   block_owner_.resize(blocks);
   for (std::size_t block = blocks; block > 0; --block) free_blocks_.push_back(static_cast<std::uint32_t>(block - 1));
@@ -67,7 +71,8 @@ void SpoolWriter::append(std::size_t tile, std::span<const LatticePoint> points,
 
 void SpoolWriter::acquire_block(std::size_t tile) {
   if (free_blocks_.empty()) {
-    const auto fullest = std::ranges::max_element(block_owner_, {}, [&](std::size_t owner) { return tiles_[owner].used; });
+    const auto fullest =
+        std::ranges::max_element(block_owner_, {}, [&](std::size_t owner) { return tiles_[owner].used; });
     Tile& victim = tiles_[*fullest];
     flush(*fullest);
     free_blocks_.push_back(victim.block);
@@ -128,12 +133,14 @@ void SpoolWriter::fail(std::size_t tile, const char* what, int reason) const {
   throw_io_error(spool_path(folder_, tile), what, reason, rest);
 }
 
-void read_spool(const std::filesystem::path& path, std::vector<LatticePoint>& positions, std::vector<std::uint64_t>& ids) {
+void read_spool(const std::filesystem::path& path, std::vector<LatticePoint>& positions,
+                std::vector<std::uint64_t>& ids) {
   FileReader file(path);
   if (file.size_bytes() % kSpoolRecordBytes != 0) {
-    throw IoError(fmt::format("{}: its {} bytes are not a whole number of {}-byte records; the file was damaged after it was "
-                              "written, run again with --no-resume",
-                              printable(path.string()), file.size_bytes(), kSpoolRecordBytes));
+    throw IoError(
+        fmt::format("{}: its {} bytes are not a whole number of {}-byte records; the file was damaged after it was "
+                    "written, run again with --no-resume",
+                    printable(path.string()), file.size_bytes(), kSpoolRecordBytes));
   }
   const std::size_t count = file.size_bytes() / kSpoolRecordBytes;
   positions.resize(count);

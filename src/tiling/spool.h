@@ -17,9 +17,9 @@ constexpr std::size_t kSpoolRecordBytes = 20;
 
 std::filesystem::path spool_path(const std::filesystem::path& folder, std::size_t tile);
 
-/// Appends records to one file per tile through a fixed pool of blocks: no memory beyond the pool and 32 bytes per tile, few files
-/// open at a time. When the pool is empty, the fullest block is written out. Every system call is checked: IoError with the
-/// file, the reason, and for a full disk the bytes still needed and free. Not thread-safe.
+/// Appends records to one file per tile through a fixed pool of blocks: no memory beyond the pool and 32 bytes per
+/// tile, few files open at a time. When the pool is empty, the fullest block is written out. Every system call is
+/// checked: IoError with the file, the reason, and for a full disk the bytes still needed and free. Not thread-safe.
 class SpoolWriter {
  public:
   struct Limits {
@@ -34,7 +34,8 @@ class SpoolWriter {
 
   /// Appends points with ids first_id, first_id + 1, ... A file left by an earlier run is replaced by the first write.
   void append(std::size_t tile, std::span<const LatticePoint> points, std::uint64_t first_id);
-  /// Writes what is buffered for the tile and closes its file, which exists then even if it is empty. Call once per tile.
+  /// Writes what is buffered for the tile and closes its file, which exists then even if it is empty. Call once per
+  /// tile.
   void close(std::size_t tile);
   std::uint64_t records() const { return records_; }
 
@@ -59,13 +60,14 @@ class SpoolWriter {
   std::vector<Tile> tiles_;
   std::unique_ptr<std::byte[]> pool_;
   std::vector<std::uint32_t> free_blocks_;
-  std::vector<std::size_t> block_owner_;   // Per block; meaningless for free ones.
-  std::vector<std::size_t> open_tiles_;    // Oldest first.
+  std::vector<std::size_t> block_owner_;  // Per block; meaningless for free ones.
+  std::vector<std::size_t> open_tiles_;   // Oldest first.
   std::uint64_t records_ = 0;
   std::uint64_t written_bytes_ = 0;
 };
 
 /// Reads a spool file back. Throws IoError if it cannot be read or is not a whole number of records.
-void read_spool(const std::filesystem::path& path, std::vector<LatticePoint>& positions, std::vector<std::uint64_t>& ids);
+void read_spool(const std::filesystem::path& path, std::vector<LatticePoint>& positions,
+                std::vector<std::uint64_t>& ids);
 
 }  // namespace arris::tiling

@@ -26,9 +26,12 @@ void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped
   }
 }
 
-void Survey::finish() { spacing = lattice.step * estimate_spacing(counts, bounds).steps; }
+void Survey::finish() {
+  spacing = lattice.step * estimate_spacing(counts, bounds).steps;
+}
 
-Survey survey_inputs(io::InputSet& inputs, const SurveyOptions& options, ProgressSink& progress, const CancelToken& cancel) {
+Survey survey_inputs(io::InputSet& inputs, const SurveyOptions& options, ProgressSink& progress,
+                     const CancelToken& cancel) {
   const io::ReadOptions read_options;
   io::PointBatch batch;
   LatticeChoice choice(inputs.sources(), options.lattice_step);

@@ -1,6 +1,6 @@
 #pragma once
-/// @file Pass 1: what is in the inputs and where. Nothing but points and parameters decides what is found here, so everything
-/// derived from a survey may influence results.
+/// @file Pass 1: what is in the inputs and where. Nothing but points and parameters decides what is found here, so
+/// everything derived from a survey may influence results.
 
 #include <cstdint>
 #include <memory>
@@ -17,8 +17,8 @@
 namespace arris::tiling {
 
 struct SurveyOptions {
-  /// > 0: the lattice step in data units. 0: the common LAS scale if all inputs agree (the finest axis if the others are whole
-  /// multiples of it), otherwise 0.0001. lattice_choice.h has the laws.
+  /// > 0: the lattice step in data units. 0: the common LAS scale if all inputs agree (the finest axis if the others
+  /// are whole multiples of it), otherwise 0.0001. lattice_choice.h has the laws.
   double lattice_step = 0.0;
 };
 
@@ -28,10 +28,11 @@ struct Survey {
   std::uint64_t points_in = 0;             ///< Points read.
   std::uint64_t dropped_nonfinite = 0;     ///< NaN or infinite coordinates: they take no part and stay unlabelled.
   std::uint64_t dropped_out_of_range = 0;  ///< Finite, but not representable on the lattice.
-  /// Typical spacing in data units: median over points of cell / sqrt(count of the cell), on the finest level at which the median
-  /// count is at least 16 (coarser levels are made from finer ones). 0 for empty input; spacing.h has the degenerate cases.
+  /// Typical spacing in data units: median over points of cell / sqrt(count of the cell), on the finest level at which
+  /// the median count is at least 16 (coarser levels are made from finer ones). 0 for empty input; spacing.h has the
+  /// degenerate cases.
   double spacing = 0.0;
-  CellCounts counts;                       ///< Points per absolute cell of 2^k lattice steps.
+  CellCounts counts;  ///< Points per absolute cell of 2^k lattice steps.
   std::uint64_t points() const { return points_in - dropped_nonfinite - dropped_out_of_range; }
 
   /// Counts a batch of mapped points (equal lengths).
@@ -55,8 +56,10 @@ void for_each_mapped_run(std::span<const Mapped> outcome, Use&& use) {
   }
 }
 
-/// Streams all inputs once; twice where the lattice depends on the points (floating point, differing scales or offsets).
-/// Memory: at most ~40 MB whatever the inputs hold, typically 10 MB. Throws Cancelled, and what reading throws.
-Survey survey_inputs(io::InputSet& inputs, const SurveyOptions& options, ProgressSink& progress, const CancelToken& cancel);
+/// Streams all inputs once; twice where the lattice depends on the points (floating point, differing scales or
+/// offsets). Memory: at most ~40 MB whatever the inputs hold, typically 10 MB. Throws Cancelled, and what reading
+/// throws.
+Survey survey_inputs(io::InputSet& inputs, const SurveyOptions& options, ProgressSink& progress,
+                     const CancelToken& cancel);
 
 }  // namespace arris::tiling

@@ -13,6 +13,9 @@
 namespace arris::tiling {
 namespace {
 
+/// A core of less than 1/4 of the points that fit, in a tile that does not fit.
+constexpr std::uint64_t kHaloDominates = 4;
+
 std::vector<PlanCell> list_cells(const Survey& survey) {
   const CellCounts& counts = survey.counts;
   const int level = counts.level();
@@ -69,8 +72,10 @@ class Planner {
 
   void split(std::span<PlanCell> cells, CellBox box) {
     const CellBox occupied = occupied_part(cells);
-    const PlannedTile tile = make_tile(cells, occupied);
-    if (tile.covered_points <= request_.max_points || cells.size() == 1) {
+    PlannedTile tile = make_tile(cells, occupied);
+    if (tile.core_points <= request_.max_points / kHaloDominates) narrow_halo(tile);
+    const bool core_fits = request_.max_core_points == 0 || tile.core_points <= request_.max_core_points;
+    if ((tile.covered_points <= request_.max_points && core_fits) || cells.size() == 1) {
       plan_.tiles.push_back(tile);
       return;
     }
@@ -88,6 +93,16 @@ class Planner {
         split_at(cells, box, axis, middle);
         return;
       }
+    }
+  }
+
+  /// Halves the halo, down to one step, until the tile fits.
+  void narrow_halo(PlannedTile& tile) {
+    std::int64_t halo = tile.core.min[0] - tile.covered.min[0];
+    while (tile.covered_points > request_.max_points && halo > 1) {
+      halo /= 2;
+      tile.covered = tile.core.expanded(halo);
+      tile.covered_points = counts_.touching(tile.covered);
     }
   }
 
@@ -150,7 +165,8 @@ class Planner {
 
 TilePlan plan_tiles(const Survey& survey, const PlanRequest& request) {
   if (request.max_points == 0) throw ConfigError("a tile must be allowed at least one point");
-  if (!request.halo || !(request.max_radius > 0.0)) throw ConfigError("the plan needs a halo and a positive maximum radius");
+  if (!request.halo || !(request.max_radius > 0.0))
+    throw ConfigError("the plan needs a halo and a positive maximum radius");
   return Planner(survey, request).run(survey.counts.total());
 }
 

@@ -8,7 +8,8 @@ namespace {
 constexpr LatticeBox kEverywhere{{-(std::int64_t{1} << 40), -(std::int64_t{1} << 40), -(std::int64_t{1} << 40)},
                                  {std::int64_t{1} << 40, std::int64_t{1} << 40, std::int64_t{1} << 40}};
 
-/// Cuts `region`, which holds p, so that it no longer meets `box`, which does not: at the side of the box farthest from p.
+/// Cuts `region`, which holds p, so that it no longer meets `box`, which does not: at the side of the box farthest from
+/// p.
 void exclude(LatticeBox& region, const LatticeBox& box, const LatticePoint& p) {
   std::int64_t farthest = -1;
   int cut_axis = 0;

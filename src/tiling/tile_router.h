@@ -11,8 +11,9 @@
 
 namespace arris::tiling {
 
-/// Finds the tiles whose covered box holds a point. Every look-up also yields a box around the point in which the answer stays the
-/// same; the last few are kept, so that coherent input needs six comparisons per point. Not thread-safe.
+/// Finds the tiles whose covered box holds a point. Every look-up also yields a box around the point in which the
+/// answer stays the same; the last few are kept, so that coherent input needs six comparisons per point. Not
+/// thread-safe.
 class TileRouter {
  public:
   /// The answer for every position in `region`: indices of tiles, ascending.

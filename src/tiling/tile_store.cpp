@@ -21,8 +21,8 @@
 namespace arris::tiling {
 namespace {
 
-// Measured peaks of surface scans are 48 and 41 bytes per point in tiles of a million points; sparse clouds with float positions cost up
-// to 8 more. The fixed part is stream and page buffers.
+// Measured peaks of surface scans are 48 and 41 bytes per point in tiles of a million points; sparse clouds with float
+// positions cost up to 8 more. The fixed part is stream and page buffers.
 constexpr double kBuildBytesPerPoint = 56.0;
 constexpr double kLoadBytesPerPoint = 50.0;
 constexpr double kFixedBytes = 8.0 * 1024 * 1024;
@@ -30,7 +30,8 @@ constexpr double kFixedBytes = 8.0 * 1024 * 1024;
 constexpr std::uint64_t kDiskBytesPerPoint = 16;
 
 std::string text_of(const LatticeBox& box) {
-  return fmt::format("[{}, {}) [{}, {}) [{}, {})", box.min[0], box.max[0], box.min[1], box.max[1], box.min[2], box.max[2]);
+  return fmt::format("[{}, {}) [{}, {}) [{}, {})", box.min[0], box.max[0], box.min[1], box.max[1], box.min[2],
+                     box.max[2]);
 }
 
 }  // namespace
@@ -70,7 +71,8 @@ struct TileStore::Impl {
   std::map<std::size_t, ManifestEntry> built;
 };
 
-TileStore::TileStore(std::filesystem::path folder, const Lattice& lattice, const TilePlan& plan, std::string parameters_hash)
+TileStore::TileStore(std::filesystem::path folder, const Lattice& lattice, const TilePlan& plan,
+                     std::string parameters_hash)
     : impl_(std::make_unique<Impl>(std::move(folder), lattice, plan, std::move(parameters_hash))) {}
 TileStore::~TileStore() = default;
 
@@ -95,7 +97,8 @@ void TileStore::build(std::size_t tile) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw IoError(fmt::format("{}: could not be written: {}", printable(impl_->tile_path(tile).string()), printable(error.what())));
+    throw IoError(fmt::format("{}: could not be written: {}", printable(impl_->tile_path(tile).string()),
+                              printable(error.what())));
   }
   sink.commit();
 
@@ -114,8 +117,9 @@ SortedPoints TileStore::Impl::read(std::size_t tile) const {
   const std::optional<ManifestEntry> expected = entry(tile);
   if (!expected) throw IoError(fmt::format("{}: tile {} has not been built", printable(path.string()), tile));
   const auto damaged = [&](const std::string& what) {
-    return IoError(fmt::format("{}: {}: its bytes are not those that were written; check the disk, then run again with --no-resume",
-                               printable(path.string()), what));
+    return IoError(fmt::format(
+        "{}: {}: its bytes are not those that were written; check the disk, then run again with --no-resume",
+        printable(path.string()), what));
   };
   FileReader file(path);
   if (file.size_bytes() != expected->size_bytes) {

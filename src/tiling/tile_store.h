@@ -14,23 +14,24 @@
 
 namespace arris::tiling {
 
-/// Tile files "<index>.vdb" in a folder and their manifest "manifest.jsonl" (per tile: points, bytes, XXH3-64 of the file, core and
-/// covered box; for all: lattice, parameters' hash; manifest.h reads it). The world space of a tile file is lattice steps. Methods may
-/// be called from several threads for different tiles.
+/// Tile files "<index>.vdb" in a folder and their manifest "manifest.jsonl" (per tile: points, bytes, XXH3-64 of the
+/// file, core and covered box; for all: lattice, parameters' hash; manifest.h reads it). The world space of a tile file
+/// is lattice steps. Methods may be called from several threads for different tiles.
 class TileStore {
  public:
   /// The folder must exist. Starts a new manifest. Throws IoError.
   TileStore(std::filesystem::path folder, const Lattice& lattice, const TilePlan& plan, std::string parameters_hash);
   ~TileStore();
 
-  /// Turns "<index>.spool" into "<index>.vdb" through a checked stream under a temporary name (flush, fsync, size compared,
-  /// XXH3 recorded, rename), then removes the spool. Throws IoError; the spool stays then and no "<index>.vdb" appears.
+  /// Turns "<index>.spool" into "<index>.vdb" through a checked stream under a temporary name (flush, fsync, size
+  /// compared, XXH3 recorded, rename), then removes the spool. Throws IoError; the spool stays then and no
+  /// "<index>.vdb" appears.
   void build(std::size_t tile);
-  /// Reads a tile back. Throws IoError if its bytes are not those that were written. Exact duplicates are folded; positions are in
-  /// Z-order.
+  /// Reads a tile back. Throws IoError if its bytes are not those that were written. Exact duplicates are folded;
+  /// positions are in Z-order.
   TilePoints load(std::size_t tile) const;
-  /// Points owned by `tile` (inside its core, duplicates included) for which keep(position) holds: appended to the outputs, in
-  /// Z-order.
+  /// Points owned by `tile` (inside its core, duplicates included) for which keep(position) holds: appended to the
+  /// outputs, in Z-order.
   void load_core(std::size_t tile, const std::function<bool(const LatticePoint&)>& keep,
                  std::vector<LatticePoint>& positions, std::vector<std::uint64_t>& ids) const;
   std::uint64_t points(std::size_t tile) const;  ///< Stored points (core and halo) of a built tile; 0 otherwise.
@@ -43,8 +44,8 @@ class TileStore {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Predicted peak bytes of build() and of load() (including what load() returns), for a tile of `points` points. They hold
-/// unless points are so far apart that the largest leaves (2^21 steps) hold fewer than about 250 of them.
+/// Predicted peak bytes of build() and of load() (including what load() returns), for a tile of `points` points. They
+/// hold unless points are so far apart that the largest leaves (2^21 steps) hold fewer than about 250 of them.
 std::uint64_t build_bytes(std::uint64_t points);
 std::uint64_t load_bytes(std::uint64_t points);
 

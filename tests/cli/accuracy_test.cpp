@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "support/arris_process.h"
 #include "support/temp_folder.h"
@@ -25,7 +26,8 @@ double f1(const std::vector<std::string>& synth, const std::vector<std::string>&
   arguments.insert(arguments.end(), evaluate.begin(), evaluate.end());
   const ProcessResult judged = run_arris(arguments);
   if (judged.exit_code != 0) throw std::runtime_error(judged.err);
-  for (const auto& row : nlohmann::json::parse(judged.out)["tolerances"]) {
+  const auto result = nlohmann::json::parse(judged.out);
+  for (const auto& row : result["tolerances"]) {
     if (std::abs(row["tolerance_spacings"].get<double>() - 1.0) < 1e-9) return row["f1"].get<double>();
   }
   throw std::runtime_error("no row for a tolerance of one spacing");

@@ -14,7 +14,11 @@ inline rc::Gen<double> coordinate() {
 }
 
 inline rc::Gen<Vec3> position() {
-  return rc::gen::apply([](double x, double y, double z) { return Vec3{x, y, z}; }, coordinate(), coordinate(), coordinate());
+  return rc::gen::apply(
+      [](double x, double y, double z) {
+        return Vec3{x, y, z};
+      },
+      coordinate(), coordinate(), coordinate());
 }
 
 /// Segments (some of length 0), circles and arcs.

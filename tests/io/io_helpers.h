@@ -18,6 +18,13 @@
 
 namespace arris::test {
 
+/// Writes a file anew. (Rewriting one in place makes some file systems wait for the disk, thousands of times in these
+/// tests.)
+inline void write_new(const std::filesystem::path& path, const std::string& bytes) {
+  std::filesystem::remove(path);
+  write_bytes(path, bytes);
+}
+
 /// All points of a file, read in small batches.
 struct AllPoints {
   std::vector<std::array<std::int32_t, 3>> stored{};
@@ -75,9 +82,12 @@ std::string message_of(const std::function<void()>& action) {
 #define EXPECT_HAS(text, part) EXPECT_NE(std::string(text).find(part), std::string::npos) << (text)
 
 /// Writes the chosen points (by global id) of inputs with one row of `columns` each, and returns the warnings.
-inline std::vector<std::string> write_kept(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs,
-                                           const std::vector<ColumnSpec>& columns, const std::function<bool(std::uint64_t)>& keep,
-                                           const std::function<std::string(std::uint64_t)>& row, std::size_t batch_points = 4) {
+inline std::vector<std::string> write_kept(const std::filesystem::path& output,
+                                           const std::vector<std::filesystem::path>& inputs,
+                                           const std::vector<ColumnSpec>& columns,
+                                           const std::function<bool(std::uint64_t)>& keep,
+                                           const std::function<std::string(std::uint64_t)>& row,
+                                           std::size_t batch_points = 4) {
   io::InputSet set(inputs);
   const auto writer = io::create_kept_point_writer(output, set, columns, {});
   io::PointBatch batch;

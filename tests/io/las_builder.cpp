@@ -63,7 +63,8 @@ std::string build_las(const LasPlan& plan) {
   put<std::uint32_t>(header, 100, static_cast<std::uint32_t>(plan.vlrs.size()));
   header[104] = static_cast<char>(plan.format);
   put<std::uint16_t>(header, 105, static_cast<std::uint16_t>(plan.record_bytes));
-  put<std::uint32_t>(header, 107, plan.format >= 6 && plan.minor >= 4 ? 0 : static_cast<std::uint32_t>(plan.points.size()));
+  put<std::uint32_t>(header, 107,
+                     plan.format >= 6 && plan.minor >= 4 ? 0 : static_cast<std::uint32_t>(plan.points.size()));
   for (std::size_t i = 0; i < 3; ++i) {
     put<double>(header, 131 + 8 * i, plan.scale[i]);
     put<double>(header, 155 + 8 * i, plan.offset[i]);
@@ -109,7 +110,8 @@ LasParts read_parts(const std::string& bytes) {
   parts.legacy_points = get<std::uint32_t>(bytes, 107);
   parts.points = parts.minor >= 4 ? get<std::uint64_t>(bytes, 247) : parts.legacy_points;
   for (std::size_t i = 0; i < (parts.minor >= 4 ? 15U : 5U); ++i) {
-    parts.by_return.push_back(parts.minor >= 4 ? get<std::uint64_t>(bytes, 255 + 8 * i) : get<std::uint32_t>(bytes, 111 + 4 * i));
+    parts.by_return.push_back(parts.minor >= 4 ? get<std::uint64_t>(bytes, 255 + 8 * i)
+                                               : get<std::uint32_t>(bytes, 111 + 4 * i));
   }
   for (std::size_t i = 0; i < 3; ++i) {
     parts.max[i] = get<double>(bytes, 179 + 16 * i);
@@ -118,7 +120,8 @@ LasParts read_parts(const std::string& bytes) {
   if (parts.minor >= 3) parts.waveform_start = get<std::uint64_t>(bytes, 227);
   std::size_t at = parts.header_bytes;
   const std::size_t offset = get<std::uint32_t>(bytes, 96);
-  for (std::uint32_t i = 0; i < get<std::uint32_t>(bytes, 100); ++i) parts.vlrs.push_back(read_record(bytes, at, false));
+  for (std::uint32_t i = 0; i < get<std::uint32_t>(bytes, 100); ++i)
+    parts.vlrs.push_back(read_record(bytes, at, false));
   if (at > offset) throw std::runtime_error("records run into the points");
   parts.gap = bytes.substr(at, offset - at);
   for (std::uint64_t i = 0; i < parts.points; ++i) {
@@ -127,7 +130,8 @@ LasParts read_parts(const std::string& bytes) {
   }
   if (parts.minor >= 4) {
     at = get<std::uint64_t>(bytes, 235);
-    for (std::uint32_t i = 0; i < get<std::uint32_t>(bytes, 243); ++i) parts.evlrs.push_back(read_record(bytes, at, true));
+    for (std::uint32_t i = 0; i < get<std::uint32_t>(bytes, 243); ++i)
+      parts.evlrs.push_back(read_record(bytes, at, true));
   }
   return parts;
 }

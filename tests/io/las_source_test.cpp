@@ -22,15 +22,18 @@ LasPlan plan_of(int minor, int format, std::size_t points, std::size_t extra = 0
 void expect_points(const AllPoints& all, const LasPlan& plan) {
   ASSERT_EQ(all.stored.size(), plan.points.size());
   for (std::size_t i = 0; i < plan.points.size(); ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_EQ(all.stored[i][axis], get<std::int32_t>(plan.points[i], 4 * axis));
-    if (!all.records.empty()) EXPECT_EQ(all.records[i], plan.points[i]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      EXPECT_EQ(all.stored[i][axis], get<std::int32_t>(plan.points[i], 4 * axis));
+    if (!all.records.empty()) {
+      EXPECT_EQ(all.records[i], plan.points[i]);
+    }
   }
 }
 
 class LasSource : public ::testing::Test {
  protected:
   std::filesystem::path write(const std::string& bytes) {
-    write_bytes(folder_ / "a.las", bytes);
+    write_new(folder_ / "a.las", bytes);
     return folder_ / "a.las";
   }
   std::string refusal(const std::string& bytes) {
@@ -118,7 +121,8 @@ TEST_F(LasSource, CutAnywhereInTheHeader_IsRefused) {
 }
 
 TEST_F(LasSource, CountsThatOverflow_AreRefused) {
-  for (const std::uint64_t count : {std::numeric_limits<std::uint64_t>::max(), std::uint64_t{1} << 60, std::uint64_t{1} << 32}) {
+  for (const std::uint64_t count :
+       {std::numeric_limits<std::uint64_t>::max(), std::uint64_t{1} << 60, std::uint64_t{1} << 32}) {
     std::string bytes = build_las(plan_of(4, 6, 2, 65535 - 30));
     put<std::uint64_t>(bytes, 247, count);
     EXPECT_HAS(refusal(bytes), "holds 2 whole points");
@@ -131,7 +135,8 @@ TEST_F(LasSource, MoreThan32BitsOfPoints_AreReachedAtBothEnds) {
   std::string bytes = build_las(plan);
   put<std::uint64_t>(bytes, 247, kPoints);
   const auto path = write(bytes);
-  if (::truncate(path.c_str(), static_cast<off_t>(375 + kPoints * 30)) != 0) GTEST_SKIP() << "no sparse file of 129 GB here";
+  if (::truncate(path.c_str(), static_cast<off_t>(375 + kPoints * 30)) != 0)
+    GTEST_SKIP() << "no sparse file of 129 GB here";
   const auto source = io::open_point_source(path);
   EXPECT_EQ(source->info().points, kPoints);
   io::PointBatch batch;
@@ -257,7 +262,7 @@ TEST_F(LasSource, FileCutShortWhileRead_IsAnInputError) {
 TEST(OpenPointSource, WhatIsNoScan_IsRefusedWithAHint) {
   const TempFolder folder;
   const auto refusal = [&](const std::string& bytes) {
-    write_bytes(folder / "x.las", bytes);
+    write_new(folder / "x.las", bytes);
     return message_of<InputError>([&] { io::open_point_source(folder / "x.las"); });
   };
   EXPECT_HAS(refusal(""), "is empty");

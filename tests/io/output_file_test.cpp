@@ -1,7 +1,8 @@
 #include "io/output_file.h"
 
-#include <csignal>
 #include <sys/resource.h>
+
+#include <csignal>
 
 #include "io_helpers.h"
 
@@ -18,8 +19,8 @@ TEST(OutputFile, Commit_MakesExactBytesAppear) {
   const TempFolder folder;
   std::string expected;
   io::OutputFile file(folder / "a", false);
-  for (std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{1000}, std::size_t{1} << 20, (std::size_t{1} << 20) + 1,
-                           std::size_t{3} << 20, std::size_t{17}}) {
+  for (std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{1000}, std::size_t{1} << 20,
+                           (std::size_t{1} << 20) + 1, std::size_t{3} << 20, std::size_t{17}}) {
     const std::string part(size, static_cast<char>('a' + size % 26));
     file.write(std::string_view(part));
     expected += part;

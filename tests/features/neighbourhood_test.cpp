@@ -1,0 +1,217 @@
+// Tree, candidates, nearest neighbours and ball moments against brute force.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "features/ball_moments.h"
+#include "features/candidate_set.h"
+#include "features/local_spacing.h"
+#include "features/nearest_select.h"
+#include "random_clouds.h"
+
+namespace arris {
+namespace {
+
+using test::random_positions;
+using test::Shape;
+
+PointTree tree_of(const TilePoints& tile) { return {tile.positions, tile.ids}; }
+
+TEST(PointTree, EveryEntry_IsInOneBucketInsideItsBox) {
+  for (const std::size_t points : {1, 2, 33, 1000, 4097}) {
+    const TilePoints tile = test::tile_of(random_positions(Shape::kVolume, points, 5000.0, points), 1);
+    const PointTree tree = tree_of(tile);
+    ASSERT_EQ(tree.size(), tile.positions.size());
+    std::vector<int> seen(tree.size());
+    const ClosedBox all{{INT32_MIN, INT32_MIN, INT32_MIN}, {INT32_MAX, INT32_MAX, INT32_MAX}};
+    tree.visit_near(all, 0.0, [&](std::size_t begin, std::size_t end, const ClosedBox& box) {
+      EXPECT_LE(end - begin, 32U);
+      for (std::size_t slot = begin; slot < end; ++slot) {
+        ++seen[tree.entry(slot)];
+        EXPECT_EQ(tree.position(slot), tile.positions[tree.entry(slot)]);
+        EXPECT_EQ(tree.id(slot), tile.ids[tree.entry(slot)]);
+        for (int axis = 0; axis < 3; ++axis) {
+          EXPECT_GE(tree.position(slot)[axis], box.min[axis]);
+          EXPECT_LE(tree.position(slot)[axis], box.max[axis]);
+        }
+      }
+    });
+    EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
+  }
+}
+
+TEST(PointTree, BoxDistance_IsExact) {
+  EXPECT_EQ(squared_distance({{0, 0, 0}, {1, 1, 1}}, {{4, 1, -3}, {5, 2, -2}}), 9.0 + 0.0 + 4.0);
+  EXPECT_EQ(squared_distance({{INT32_MIN, 0, 0}, {INT32_MIN, 0, 0}}, {{INT32_MAX, 0, 0}, {INT32_MAX, 0, 0}}),
+            4294967295.0 * 4294967295.0);
+}
+
+template <class T>
+class Kernels : public testing::Test {};
+using Arithmetics = testing::Types<float, double, std::int64_t>;
+TYPED_TEST_SUITE(Kernels, Arithmetics);
+
+TYPED_TEST(Kernels, Gathering_HoldsEveryPointInReach) {
+  for (const Shape shape : {Shape::kPlane, Shape::kVolume, Shape::kDensityStep, Shape::kCollinear}) {
+    const TilePoints tile = test::tile_of(random_positions(shape, 2000, 3000.0, 7), 1);
+    const PointTree tree = tree_of(tile);
+    CandidateSet<TypeParam> candidates;
+    const ClosedBox box{{-50, -20, -10}, {100, 90, 30}};
+    for (const double reach : {0.0, 40.5, 400.0}) {
+      ASSERT_TRUE(candidates.gather(tree, box, reach));
+      std::vector<int> have(tree.size());
+      for (std::size_t i = 0; i < candidates.count; ++i) {
+        const std::uint32_t slot = candidates.slot[i];
+        ++have[slot];
+        EXPECT_EQ(static_cast<std::int64_t>(candidates.x[i]) + candidates.origin[0], tree.position(slot).x);
+        EXPECT_EQ(static_cast<std::int64_t>(candidates.y[i]) + candidates.origin[1], tree.position(slot).y);
+        EXPECT_EQ(static_cast<std::int64_t>(candidates.z[i]) + candidates.origin[2], tree.position(slot).z);
+      }
+      for (std::size_t slot = 0; slot < tree.size(); ++slot) {
+        const LatticePoint p = tree.position(slot);
+        const double d2 = squared_distance(box, {{p.x, p.y, p.z}, {p.x, p.y, p.z}});
+        EXPECT_LE(have[slot], 1);
+        if (d2 <= reach * reach) {
+          EXPECT_EQ(have[slot], 1);
+        }
+        if (d2 > (reach + 1.001) * (reach + 1.001)) {
+          EXPECT_EQ(have[slot], 0);
+        }
+      }
+    }
+  }
+}
+
+TYPED_TEST(Kernels, Nearest_AgreeWithSortingAll) {
+  for (const Shape shape : {Shape::kPlane, Shape::kGrid, Shape::kVolume}) {
+    const TilePoints tile = test::tile_of(random_positions(shape, 700, 600.0, 9), 1);
+    const PointTree tree = tree_of(tile);
+    CandidateSet<TypeParam> candidates;
+    const ClosedBox all{{-2000, -2000, -2000}, {4000, 4000, 4000}};
+    ASSERT_TRUE(candidates.gather(tree, all, 0.0));
+    ASSERT_EQ(candidates.count, tree.size());
+    NearestScratch<TypeParam> scratch;
+    Neighbours found;
+    found.reserve(200);
+    for (std::size_t slot = 0; slot < tree.size(); slot += 37) {
+      const LatticePoint at = tree.position(slot);
+      std::vector<std::pair<std::uint64_t, std::uint64_t>> sorted;
+      std::vector<LatticePoint> position_of_id(tree.size() * 2 + 2000);
+      for (std::size_t other = 0; other < tree.size(); ++other) {
+        position_of_id[tree.id(other)] = tree.position(other);
+        if (other != slot) sorted.emplace_back(squared_distance(at, tree.position(other)), tree.id(other));
+      }
+      std::sort(sorted.begin(), sorted.end());
+      for (const std::size_t k : {std::size_t{1}, std::size_t{30}, std::size_t{200}}) {
+        for (const int guess : {0, 100, 100000}) {
+          for (const int most : {5000, 10000000}) {
+            NearestQuery<TypeParam> query;
+            query.x = static_cast<TypeParam>(at.x - candidates.origin[0]);
+            query.y = static_cast<TypeParam>(at.y - candidates.origin[1]);
+            query.z = static_cast<TypeParam>(at.z - candidates.origin[2]);
+            query.k = k;
+            query.max_d2 = static_cast<TypeParam>(most);
+            query.guess_d2 = static_cast<TypeParam>(guess);
+            select_nearest(tree, candidates, query, scratch, found);
+            std::size_t expected = 0;
+            while (expected < k && expected < sorted.size() && sorted[expected].first <= static_cast<std::uint64_t>(most)) ++expected;
+            ASSERT_EQ(found.count, expected);
+            for (std::size_t i = 0; i < expected; ++i) {
+              ASSERT_EQ(found.d2[i], static_cast<double>(sorted[i].first));
+              const LatticePoint p = position_of_id[sorted[i].second];
+              ASSERT_EQ(found.dx[i], p.x - at.x);
+              ASSERT_EQ(found.dy[i], p.y - at.y);
+              ASSERT_EQ(found.dz[i], p.z - at.z);
+            }
+            if (expected > 0) {
+              EXPECT_EQ(found.last_d2, sorted[expected - 1].first);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TYPED_TEST(Kernels, BallMoments_AreExact) {
+  const TilePoints tile = test::tile_of(random_positions(Shape::kFold, 1500, 800.0, 10), 1);
+  const PointTree tree = tree_of(tile);
+  CandidateSet<TypeParam> candidates;
+  const LatticePoint centre = tree.position(77);
+  const ClosedBox box{{centre.x, centre.y, centre.z}, {centre.x, centre.y, centre.z}};
+  for (const double radius : {0.0, 3.0, 60.7, 250.0}) {
+    ASSERT_TRUE(candidates.gather(tree, box, radius));
+    ASSERT_TRUE(ball_sums_are_exact<TypeParam>(radius, candidates.count));
+    const auto radius2 = static_cast<std::uint64_t>(radius * radius);
+    BallQuery<TypeParam> ball{static_cast<TypeParam>(centre.x - candidates.origin[0]), static_cast<TypeParam>(centre.y - candidates.origin[1]),
+                              static_cast<TypeParam>(centre.z - candidates.origin[2]), static_cast<TypeParam>(radius2)};
+    std::int64_t n = 0;
+    std::int64_t sums[9] = {};
+    double low = 0.0;
+    double high = 0.0;
+    const Vector3 e{0.36, 0.48, 0.8};
+    for (const LatticePoint& p : tile.positions) {
+      if (squared_distance(p, centre) > radius2) continue;
+      const std::int64_t x = p.x - centre.x;
+      const std::int64_t y = p.y - centre.y;
+      const std::int64_t z = p.z - centre.z;
+      const std::int64_t terms[9] = {x, y, z, x * x, x * y, x * z, y * y, y * z, z * z};
+      for (int t = 0; t < 9; ++t) sums[t] += terms[t];
+      ++n;
+      const double along = dot(e, {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
+      low = std::min(low, along);
+      high = std::max(high, along);
+    }
+    const BallMoments m = ball_moments(candidates, ball);
+    const double found[10] = {m.n, m.x, m.y, m.z, m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
+    EXPECT_EQ(found[0], static_cast<double>(n));
+    for (int t = 0; t < 9; ++t) EXPECT_EQ(found[t + 1], static_cast<double>(sums[t])) << t;
+    EXPECT_GE(extent_bound(candidates, ball, e), high - low);
+    std::vector<std::uint32_t> members;
+    EXPECT_EQ(ball_members(candidates, ball, members), static_cast<std::size_t>(n));
+  }
+}
+
+TEST(CandidateSet, CoordinatesTooLargeForFloat_AreRefused) {
+  const TilePoints tile = test::tile_of({{0, 0, 0}, {20000000, 1, 2}}, 1);
+  const PointTree tree = tree_of(tile);
+  CandidateSet<float> floats;
+  CandidateSet<double> doubles;
+  const ClosedBox box{{0, 0, 0}, {0, 0, 0}};
+  EXPECT_FALSE(floats.gather(tree, box, 3.0));
+  EXPECT_TRUE(doubles.gather(tree, box, 3.0));
+  EXPECT_EQ(doubles.count, 1U);
+}
+
+TEST(LocalSpacing, RegularGrid_IsThePitch) {
+  const std::vector<LatticePoint> grid = random_positions(Shape::kGrid, 900, 3000.0, 1);
+  const TilePoints tile = test::tile_of(grid, 1);
+  const PointTree tree = tree_of(tile);
+  CandidateSet<double> candidates;
+  ASSERT_TRUE(candidates.gather(tree, {{0, 0, 0}, {3000, 3000, 0}}, 0.0));
+  NearestScratch<double> scratch;
+  Neighbours found;
+  found.reserve(30);
+  for (std::size_t i = 0; i < candidates.count; ++i) {
+    if (std::fabs(candidates.x[i]) > 100 || std::fabs(candidates.y[i]) > 100) continue;
+    select_nearest(tree, candidates, {candidates.x[i], candidates.y[i], candidates.z[i], 30, 1e7, 90000.0}, scratch, found);
+    const LocalSpacing spacing = local_spacing(found);
+    EXPECT_NEAR(spacing.nearest, 100.0 * (4 + 2 * std::sqrt(2.0)) / 6.0, 1e-9);
+    EXPECT_NEAR(spacing.density, 100.0, 4.0);
+  }
+}
+
+TEST(LocalSpacing, FewNeighbours_AreUsedAsTheyAre) {
+  Neighbours found;
+  found.reserve(8);
+  EXPECT_EQ(local_spacing(found).density, 0.0);
+  found.count = 1;
+  found.d2[0] = 25.0;
+  EXPECT_EQ(local_spacing(found).nearest, 5.0);
+  EXPECT_NEAR(local_spacing(found).density, 5.0 * std::sqrt(3.14159265358979), 1e-9);
+}
+
+}  // namespace
+}  // namespace arris

@@ -1,0 +1,83 @@
+#include "io_helpers.h"
+#include "las_builder.h"
+#include "ply_builder.h"
+
+namespace arris::test {
+namespace {
+
+TEST(InputSet, SeveralFiles_AreOneStreamWithGlobalIds) {
+  const TempFolder folder;
+  std::vector<std::filesystem::path> paths;
+  for (const std::size_t count : {5, 0, 7, 1}) {
+    LasPlan plan;
+    plan.points = make_records(count, 20, static_cast<unsigned>(count));
+    paths.push_back(folder / (std::to_string(paths.size()) + ".las").c_str());
+    write_new(paths.back(), build_las(plan));
+  }
+  paths.push_back(folder / "p.ply");
+  write_new(paths.back(), build_ply({"ascii", "\n", {}, {make_vertices({{"x"}, {"y"}, {"z"}}, 3)}}));
+  io::InputSet set(paths);
+  EXPECT_EQ(set.points(), 16U);
+  EXPECT_EQ(set.sources().size(), 5U);
+  io::ReadOptions options;
+  options.batch_points = 4;
+  for (int pass = 0; pass < 2; ++pass) {
+    io::PointBatch batch;
+    std::uint64_t next = 0;
+    std::vector<std::size_t> of_source(5);
+    while (set.read(batch, options)) {
+      EXPECT_EQ(batch.first_id, next);
+      next += batch.count;
+      of_source[set.source_index()] += batch.count;
+      EXPECT_EQ(batch.ix.size(), set.source_index() < 4 ? batch.count : 0);
+      EXPECT_EQ(batch.x.size(), set.source_index() < 4 ? 0 : batch.count);
+    }
+    EXPECT_EQ(next, 16U);
+    EXPECT_EQ(of_source, (std::vector<std::size_t>{5, 0, 7, 1, 3}));
+    EXPECT_FALSE(set.read(batch, options));
+    EXPECT_EQ(batch.count, 0U);
+    set.rewind();
+  }
+}
+
+TEST(InputSet, FileReplacedBetweenPasses_IsRefused) {
+  const TempFolder folder;
+  LasPlan plan;
+  plan.points = make_records(5, 20);
+  write_new(folder / "a.las", build_las(plan));
+  io::InputSet set({folder / "a.las"});
+  plan.points.pop_back();
+  write_new(folder / "a.las", build_las(plan));
+  io::PointBatch batch;
+  EXPECT_HAS(message_of<InputError>([&] { set.read(batch, {}); }), "changed while it was in use (5 points, now 4)");
+}
+
+TEST(InputSet, NoFiles_IsRefused) {
+  message_of<ConfigError>([] { io::InputSet set({}); });
+}
+
+TEST(ExpandInputs, Folder_GivesItsScansInOrderOfTheirNames) {
+  const TempFolder folder;
+  for (const char* name : {"b.las", "A.LAS", "c.Ply", "a.las", "d.laz", "e.txt", "f.las.partial-3"})
+    write_new(folder / name, "x");
+  std::filesystem::create_directory(folder / "g.las");
+  write_new(folder / "g.las/h.las", "x");
+  const std::vector<std::string> arguments{folder.path().string(), (folder / "e.txt").string()};
+  std::vector<std::string> names;
+  for (const auto& path : io::expand_inputs(arguments)) names.push_back(path.filename().string());
+  EXPECT_EQ(names, (std::vector<std::string>{"A.LAS", "a.las", "b.las", "c.Ply", "e.txt"}));
+}
+
+TEST(ExpandInputs, WhatHasNoScans_IsRefused) {
+  const TempFolder folder;
+  const auto refusal = [&](const std::string& argument) {
+    return message_of<InputError>([&] { io::expand_inputs(std::vector<std::string>{argument}); });
+  };
+  EXPECT_HAS(refusal((folder / "absent").string()), "no such file");
+  EXPECT_HAS(refusal(folder.path().string()), "no .las or .ply");
+  write_new(folder / "a.laz", "x");
+  EXPECT_HAS(refusal(folder.path().string()), ".laz files must be decompressed");
+}
+
+}  // namespace
+}  // namespace arris::test

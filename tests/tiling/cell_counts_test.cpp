@@ -1,0 +1,164 @@
+#include "tiling/cell_counts.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "tiling/random_cloud.h"
+
+namespace arris::tiling {
+namespace {
+
+using Cells = std::map<std::array<std::int64_t, 3>, std::uint64_t>;
+
+std::array<std::int64_t, 3> cell_of(const LatticePoint& p, int level) {
+  return {std::int64_t{p.x} >> level, std::int64_t{p.y} >> level, std::int64_t{p.z} >> level};
+}
+
+Cells brute_force(const std::vector<LatticePoint>& points, int level) {
+  Cells cells;
+  for (const LatticePoint& p : points) ++cells[cell_of(p, level)];
+  return cells;
+}
+
+std::size_t leaves(const std::vector<LatticePoint>& points, int level) {
+  std::set<std::array<std::int64_t, 3>> found;
+  for (const LatticePoint& p : points) found.insert(cell_of(p, level + 3));
+  return found.size();
+}
+
+Cells listed(const CellCounts& counts) {
+  Cells cells;
+  std::array<std::int64_t, 3> last{std::numeric_limits<std::int64_t>::min(), 0, 0};
+  counts.for_each([&](const LatticeBox& box, std::uint64_t count) {
+    EXPECT_LT(last, box.min) << "cells come in ascending order";
+    last = box.min;
+    std::array<std::int64_t, 3> cell{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(box.max[axis] - box.min[axis], std::int64_t{1} << counts.level());
+      cell[axis] = box.min[axis] >> counts.level();
+    }
+    cells[cell] = count;
+  });
+  return cells;
+}
+
+RC_GTEST_PROP(CellCounts, AnyCloud_CountsAsBruteForceOnTheFinestLevelThatFits, ()) {
+  const auto points = test::any_cloud(1, 600);
+  const auto max_leaves = *rc::gen::inRange<std::size_t>(1, 100).as("max leaves");
+  int level = 0;
+  while (level < 30 && leaves(points, level) > max_leaves) ++level;
+  CellCounts counts(0, max_leaves);
+  const std::size_t half = points.size() / 2;
+  counts.add(std::span(points).first(half));
+  counts.add(std::span(points).subspan(half));
+  RC_ASSERT(counts.level() == level);
+  RC_ASSERT(counts.total() == points.size());
+  const Cells expected = brute_force(points, level);
+  RC_ASSERT(counts.active_cells() == expected.size());
+  RC_ASSERT(listed(counts) == expected);
+  RC_ASSERT(counts.count_at(points.front()) == expected.at(cell_of(points.front(), level)));
+}
+
+RC_GTEST_PROP(CellCounts, AnyOrder_GivesTheSameLevelAndCounts, ()) {
+  auto points = test::any_cloud(1, 600);
+  const auto max_leaves = *rc::gen::inRange<std::size_t>(1, 100).as("max leaves");
+  CellCounts one(0, max_leaves), other(0, max_leaves);
+  one.add(points);
+  std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
+  std::ranges::shuffle(points, random);
+  for (const LatticePoint& p : points) other.add(std::span(&p, 1));
+  RC_ASSERT(one.level() == other.level());
+  RC_ASSERT(listed(one) == listed(other));
+}
+
+RC_GTEST_PROP(CellCounts, Coarsened_IsTheExactUnionOfCells, ()) {
+  const auto points = test::any_cloud(1, 300);
+  CellCounts counts(*rc::gen::inRange(0, 12));
+  counts.add(points);
+  const int level = *rc::gen::inRange(counts.level(), 31);
+  const CellCounts coarse = counts.coarsened(level);
+  RC_ASSERT(coarse.level() == level);
+  RC_ASSERT(coarse.total() == points.size());
+  RC_ASSERT(listed(coarse) == brute_force(points, level));
+  RC_ASSERT(listed(counts) == brute_force(points, counts.level()));
+}
+
+RC_GTEST_PROP(CellCounts, Remove_EmptiesEachCellOnceAtItsLastPoint, ()) {
+  auto points = test::any_cloud(1, 300);
+  CellCounts counts(4, 50);
+  counts.add(points);
+  const int level = counts.level();
+  Cells expected = brute_force(points, level);
+  std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
+  std::ranges::shuffle(points, random);
+  for (const LatticePoint& p : points) {
+    const bool last = --expected[cell_of(p, level)] == 0;
+    std::size_t events = 0;
+    const std::size_t missing = counts.remove(std::span(&p, 1), [&](const LatticeBox& cell) {
+      ++events;
+      RC_ASSERT(cell.contains(p));
+    });
+    RC_ASSERT(missing == 0U);
+    RC_ASSERT(events == (last ? 1U : 0U));
+  }
+  RC_ASSERT(counts.total() == 0U);
+  RC_ASSERT(counts.active_cells() == 0U);
+}
+
+TEST(CellCounts, RemoveOfUncountedPoints_ReportsThemAndChangesNothing) {
+  CellCounts counts(3);
+  const std::vector<LatticePoint> points{{0, 0, 0}, {100, 0, 0}};
+  counts.add(points);
+  const std::vector<LatticePoint> strangers{{-1, 0, 0}, {100, 0, 0}, {101, 0, 0}};  // 101 shares the cell of 100.
+  std::size_t emptied = 0;
+  EXPECT_EQ(counts.remove(strangers, [&](const LatticeBox&) { ++emptied; }), 2U);
+  EXPECT_EQ(emptied, 1U);
+  EXPECT_EQ(counts.total(), 1U);
+  EXPECT_EQ(counts.count_at({0, 0, 0}), 1U);
+}
+
+TEST(CellCounts, CountBeyondInt32_StaysExact) {
+  constexpr std::uint64_t kMany = (std::uint64_t{1} << 33) + 5;
+  CellCounts counts(0);
+  counts.add({7, 7, 7}, kMany);
+  counts.add({6, 7, 7}, (std::uint64_t{1} << 30) - 1);
+  const std::vector<LatticePoint> one{{6, 7, 7}};
+  counts.add(one);  // Exactly 2^30.
+  EXPECT_EQ(counts.count_at({7, 7, 7}), kMany);
+  EXPECT_EQ(counts.count_at({6, 7, 7}), std::uint64_t{1} << 30);
+  EXPECT_EQ(counts.coarsened(1).count_at({7, 7, 7}), kMany + (std::uint64_t{1} << 30));
+  EXPECT_EQ(counts.remove(one, [](const LatticeBox&) { FAIL() << "the cell is far from empty"; }), 0U);
+  EXPECT_EQ(counts.count_at({6, 7, 7}), (std::uint64_t{1} << 30) - 1);
+  EXPECT_EQ(counts.total(), kMany + (std::uint64_t{1} << 30) - 1);
+}
+
+TEST(CellCounts, RemoveDownToACarriedCount_LeavesTheCellOccupied) {
+  CellCounts counts(30);
+  const LatticePoint p{1, 1, 1};
+  counts.add(p, (std::uint64_t{1} << 30) + 1);
+  const std::vector<LatticePoint> two(2, p);
+  EXPECT_EQ(counts.remove(two, [&](const LatticeBox&) { FAIL() << "there are many more"; }), 0U);
+  EXPECT_EQ(counts.count_at(p), (std::uint64_t{1} << 30) - 1);
+  EXPECT_EQ(counts.active_cells(), 1U);
+}
+
+TEST(CellCounts, PointsAtTheEndsOfInt32_HaveTheirOwnCells) {
+  constexpr std::int32_t kLow = std::numeric_limits<std::int32_t>::min(),
+                         kHigh = std::numeric_limits<std::int32_t>::max();
+  const std::vector<LatticePoint> corners{{kLow, kLow, kLow}, {kHigh, kHigh, kHigh}, {kLow, kHigh, 0}};
+  CellCounts counts(0);
+  counts.add(corners);
+  EXPECT_EQ(listed(counts), brute_force(corners, 0));
+  EXPECT_EQ(listed(counts.coarsened(30)), brute_force(corners, 30));
+}
+
+}  // namespace
+}  // namespace arris::tiling
