@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -21,6 +22,20 @@ double cpu_seconds() {
   getrusage(RUSAGE_SELF, &usage);
   const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// Equal on every processor and with every compiler setting, or something is wrong.
+std::uint64_t checksum(const std::vector<arris::ContourRecord>& records) {
+  std::uint64_t sum = 0;
+  for (const arris::ContourRecord& r : records) {
+    for (const std::uint64_t part : {r.id, std::uint64_t{r.classes}, std::uint64_t{r.votes}, std::uint64_t{std::bit_cast<std::uint32_t>(r.gap_deg)},
+                                     std::uint64_t{std::bit_cast<std::uint32_t>(r.fold_strength)},
+                                     std::uint64_t{std::bit_cast<std::uint32_t>(r.fold_angle_deg)}}) {
+      sum = (sum ^ part) * 0x9e3779b97f4a7c15ULL;
+      sum ^= sum >> 29;
+    }
+  }
+  return sum;
 }
 
 /// Uniformly random points on a square or on the faces of a cube, with isotropic noise, in lattice steps.
@@ -67,8 +82,9 @@ int main(int argc, char** argv) {
     const double before = cpu_seconds();
     const arris::TileContours found = extract_liu(tile, lattice, parameters);
     const double seconds = cpu_seconds() - before;
-    std::printf("%-16s %9zu points  %8zu records  %6.3f CPU s  %.3f M points per CPU second\n", what, tile.positions.size(),
-                found.records.size(), seconds, static_cast<double>(tile.positions.size()) / seconds * 1e-6);
+    std::printf("%-16s %9zu points  %8zu records (%016llx)  %6.3f CPU s  %.3f M points per CPU second\n", what,
+                tile.positions.size(), found.records.size(), static_cast<unsigned long long>(checksum(found.records)), seconds,
+                static_cast<double>(tile.positions.size()) / seconds * 1e-6);
   };
   time("all");
   if (argc > 6) return 0;

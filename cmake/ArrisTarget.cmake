@@ -24,6 +24,7 @@ endfunction()
 function(arris_add_test name label)
   add_executable(${name} ${ARGN})
   target_link_libraries(${name} PRIVATE GTest::gtest_main rapidcheck arris_settings)
+  target_compile_options(${name} PRIVATE -O1)  # Tests are compiled more often than they are waited for.
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 600)
 endfunction()

@@ -10,7 +10,7 @@ what=${1:-quick}
 case $what in
   quick) scripts/build.sh release -DARRIS_TESTS=ON; ctest --preset release -L quick -j"$(nproc)" ;;
   long) scripts/build.sh release -DARRIS_TESTS=ON; ctest --preset release -j1 ;;
-  asan) scripts/build.sh asan; ctest --preset asan -L quick -j"$(nproc)" ;;
-  tsan) scripts/build.sh tsan; ctest --preset tsan -L pipeline -j1 ;;
+  asan) scripts/build.sh asan -DARRIS_TESTS=ON; ctest --preset asan -L quick -j"$(nproc)" ;;
+  tsan) ARRIS_TARGETS='arris cli_tests exact_tiling_tests core_tests' scripts/build.sh tsan -DARRIS_TESTS=ON; ctest --preset tsan -L pipeline -j1 ;;
   *) echo "test.sh: unknown suite '$what' (quick, long, asan, tsan)" >&2; exit 2 ;;
 esac

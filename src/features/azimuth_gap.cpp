@@ -11,35 +11,37 @@ namespace {
 
 constexpr int kBins = 64;
 
-/// The bin of the diamond angle (a monotone stand-in for the azimuth, 4 per turn) of the first `count` neighbours; kBins for those
-/// that might be too close for an azimuth.
-ARRIS_SIMD_CLONES void diamond_bins(const Neighbours& neighbours, const GapQuery& q, std::size_t count, std::uint8_t* bins) {
-  const double skip = 2.0 * q.min_offset + 1e-9;
-  for (std::size_t i = 0; i < simd::padded(count); i += 8) {
-    using simd::Double8;
-    const auto dx = simd::load<Double8>(neighbours.dx.data() + i);
-    const auto dy = simd::load<Double8>(neighbours.dy.data() + i);
-    const auto dz = simd::load<Double8>(neighbours.dz.data() + i);
-    const Double8 a = dx * q.u[0] + dy * q.u[1] + dz * q.u[2];
-    const Double8 b = dx * q.v[0] + dy * q.v[1] + dz * q.v[2];
-    const Double8 size = (a < 0.0 ? -a : a) + (b < 0.0 ? -b : b);
-    const Double8 ratio = a / (size > skip ? size : size - size + 1.0);
-    const Double8 diamond = b >= 0.0 ? 1.0 - ratio : 3.0 + ratio;
-    const Double8 scaled = diamond * (kBins / 4.0);
-    for (std::size_t lane = 0; lane < 8; ++lane) {
-      const auto bin = static_cast<int>(scaled[lane]) & (kBins - 1);
-      bins[i + lane] = static_cast<std::uint8_t>(size[lane] > skip ? bin : kBins);
+/// The bin of the diamond angle (a monotone stand-in for the azimuth, 4 per turn) of the first `count` neighbours; more
+/// than kBins for those that might be too close for an azimuth.
+struct DiamondBins {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(const Neighbours& neighbours, const GapQuery& q, std::size_t count, std::int32_t* bins) {
+    using V = typename simd::Wide<Bytes>::Double;
+    constexpr std::size_t kLanes = Bytes / sizeof(double);
+    const double skip = 2.0 * q.min_offset + 1e-9;
+    for (std::size_t i = 0; i < count; i += kLanes) {
+      const auto dx = simd::load<V>(neighbours.dx.data() + i);
+      const auto dy = simd::load<V>(neighbours.dy.data() + i);
+      const auto dz = simd::load<V>(neighbours.dz.data() + i);
+      const V a = dx * q.u[0] + dy * q.u[1] + dz * q.u[2];
+      const V b = dx * q.v[0] + dy * q.v[1] + dz * q.v[2];
+      const V size = (a < 0.0 ? -a : a) + (b < 0.0 ? -b : b);
+      const V ratio = a / (size > skip ? size : V{} + 1.0);
+      const V diamond = b >= 0.0 ? 1.0 - ratio : 3.0 + ratio;
+      const V bin = size > skip ? diamond * (kBins / 4.0) : V{} + 2.0 * kBins;
+      for (std::size_t lane = 0; lane < kLanes; ++lane) bins[i + lane] = static_cast<std::int32_t>(bin[lane]);
     }
   }
-}
+};
 
 /// One bit per bin that one of the first `count` <= 200 neighbours falls into.
 std::uint64_t occupied_bins(const Neighbours& neighbours, const GapQuery& q, std::size_t count) {
-  std::uint8_t bins[simd::padded(200)];
-  diamond_bins(neighbours, q, count, bins);
+  std::int32_t bins[simd::padded(200)];
+  simd::dispatch<DiamondBins>(neighbours, q, count, bins);
   std::uint64_t occupied = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (bins[i] < kBins) occupied |= std::uint64_t{1} << bins[i];
+    // A turn may round to a full 64, which is bin 0.
+    if (bins[i] <= kBins) occupied |= std::uint64_t{1} << (bins[i] % kBins);
   }
   return occupied;
 }

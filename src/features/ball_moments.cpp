@@ -6,78 +6,72 @@
 namespace arris {
 namespace {
 
-template <class T, class V>
+template <class V>
 ARRIS_ALWAYS_INLINE double lane_sum(const V& v) {
   double sum = 0.0;
-  for (std::size_t lane = 0; lane < simd::VectorOf<T>::kLanes; ++lane) sum += static_cast<double>(v[lane]);
+  for (std::size_t lane = 0; lane < sizeof(V) / sizeof(v[0]); ++lane) sum += static_cast<double>(v[lane]);
   return sum;
 }
 
-template <class T>
-ARRIS_ALWAYS_INLINE void sum_members(const CandidateSet<T>& c, const BallQuery<T>& ball, BallMoments& out) {
-  using V = typename simd::VectorOf<T>::Type;
-  V n{}, x{}, y{}, z{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
-  const std::size_t end = simd::padded(c.count);
-  for (std::size_t i = 0; i < end; i += simd::VectorOf<T>::kLanes) {
-    const V dx = simd::load<V>(c.x.data() + i) - ball.x;
-    const V dy = simd::load<V>(c.y.data() + i) - ball.y;
-    const V dz = simd::load<V>(c.z.data() + i) - ball.z;
-    const V dxx = dx * dx;
-    const V dyy = dy * dy;
-    const V dzz = dz * dz;
-    const auto inside = (dxx + dyy + dzz) <= ball.radius2;
-    n = inside ? n + T{1} : n;
-    x = inside ? x + dx : x;
-    y = inside ? y + dy : y;
-    z = inside ? z + dz : z;
-    xx = inside ? xx + dxx : xx;
-    yy = inside ? yy + dyy : yy;
-    zz = inside ? zz + dzz : zz;
-    xy = inside ? xy + dx * dy : xy;
-    xz = inside ? xz + dx * dz : xz;
-    yz = inside ? yz + dy * dz : yz;
+struct SumMembers {
+  template <int Bytes, class T>
+  static ARRIS_ALWAYS_INLINE void run(const CandidateSet<T>& c, const BallQuery<T>& ball, BallMoments& out) {
+    using V = typename simd::VectorOf<T, Bytes>::Type;
+    V n{}, x{}, y{}, z{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+    const std::size_t end = simd::padded(c.count);
+    for (std::size_t i = 0; i < end; i += simd::VectorOf<T, Bytes>::kLanes) {
+      V dx = simd::load<V>(c.x.data() + i) - ball.x;
+      V dy = simd::load<V>(c.y.data() + i) - ball.y;
+      V dz = simd::load<V>(c.z.data() + i) - ball.z;
+      const auto inside = (dx * dx + dy * dy + dz * dz) <= ball.radius2;
+      dx = inside ? dx : V{};  // Others add zeros.
+      dy = inside ? dy : V{};
+      dz = inside ? dz : V{};
+      n += inside ? V{} + T{1} : V{};
+      x += dx;
+      y += dy;
+      z += dz;
+      xx += dx * dx;
+      xy += dx * dy;
+      xz += dx * dz;
+      yy += dy * dy;
+      yz += dy * dz;
+      zz += dz * dz;
+    }
+    out = {lane_sum(n),  lane_sum(x),  lane_sum(y),  lane_sum(z),  lane_sum(xx),
+           lane_sum(xy), lane_sum(xz), lane_sum(yy), lane_sum(yz), lane_sum(zz)};
   }
-  out = {lane_sum<T>(n),  lane_sum<T>(x),  lane_sum<T>(y),  lane_sum<T>(z),  lane_sum<T>(xx),
-         lane_sum<T>(xy), lane_sum<T>(xz), lane_sum<T>(yy), lane_sum<T>(yz), lane_sum<T>(zz)};
-}
+};
 
-template <class T>
-ARRIS_ALWAYS_INLINE void extremes(const CandidateSet<T>& c, const BallQuery<T>& ball, const Vector3& e, double* low,
-                                  double* high) {
-  using V = typename simd::VectorOf<T>::Type;
-  const T ex = static_cast<T>(e[0]);
-  const T ey = static_cast<T>(e[1]);
-  const T ez = static_cast<T>(e[2]);
-  V least{};  // The centre itself is a member, at 0.
-  V most{};
-  const std::size_t end = simd::padded(c.count);
-  for (std::size_t i = 0; i < end; i += simd::VectorOf<T>::kLanes) {
-    const V dx = simd::load<V>(c.x.data() + i) - ball.x;
-    const V dy = simd::load<V>(c.y.data() + i) - ball.y;
-    const V dz = simd::load<V>(c.z.data() + i) - ball.z;
-    const auto inside = (dx * dx + dy * dy + dz * dz) <= ball.radius2;
-    const V along = dx * ex + dy * ey + dz * ez;
-    const V masked = inside ? along : V{};
-    least = masked < least ? masked : least;
-    most = masked > most ? masked : most;
+struct Extremes {
+  template <int Bytes, class T>
+  static ARRIS_ALWAYS_INLINE void run(const CandidateSet<T>& c, const BallQuery<T>& ball, const Vector3& e, double& low, double& high) {
+    using V = typename simd::VectorOf<T, Bytes>::Type;
+    const T ex = static_cast<T>(e[0]);
+    const T ey = static_cast<T>(e[1]);
+    const T ez = static_cast<T>(e[2]);
+    V least{};  // The centre itself is a member, at 0.
+    V most{};
+    const std::size_t end = simd::padded(c.count);
+    for (std::size_t i = 0; i < end; i += simd::VectorOf<T, Bytes>::kLanes) {
+      const V dx = simd::load<V>(c.x.data() + i) - ball.x;
+      const V dy = simd::load<V>(c.y.data() + i) - ball.y;
+      const V dz = simd::load<V>(c.z.data() + i) - ball.z;
+      const auto inside = (dx * dx + dy * dy + dz * dz) <= ball.radius2;
+      const V along = dx * ex + dy * ey + dz * ez;
+      const V masked = inside ? along : V{};
+      least = masked < least ? masked : least;
+      most = masked > most ? masked : most;
+    }
+    for (std::size_t lane = 0; lane < simd::VectorOf<T, Bytes>::kLanes; ++lane) {
+      low = std::min(low, static_cast<double>(least[lane]));
+      high = std::max(high, static_cast<double>(most[lane]));
+    }
   }
-  *low = *high = 0.0;
-  for (std::size_t lane = 0; lane < simd::VectorOf<T>::kLanes; ++lane) {
-    *low = std::min(*low, static_cast<double>(least[lane]));
-    *high = std::max(*high, static_cast<double>(most[lane]));
-  }
-}
+};
 
-ARRIS_SIMD_CLONES void sum(const CandidateSet<float>& c, const BallQuery<float>& b, BallMoments& out) { sum_members(c, b, out); }
-ARRIS_SIMD_CLONES void sum(const CandidateSet<double>& c, const BallQuery<double>& b, BallMoments& out) { sum_members(c, b, out); }
-ARRIS_SIMD_CLONES void extents(const CandidateSet<float>& c, const BallQuery<float>& b, const Vector3& e, double* low,
-                               double* high) {
-  extremes(c, b, e, low, high);
-}
-ARRIS_SIMD_CLONES void extents(const CandidateSet<double>& c, const BallQuery<double>& b, const Vector3& e, double* low,
-                               double* high) {
-  extremes(c, b, e, low, high);
-}
+void sum(const CandidateSet<float>& c, const BallQuery<float>& b, BallMoments& out) { simd::dispatch<SumMembers>(c, b, out); }
+void sum(const CandidateSet<double>& c, const BallQuery<double>& b, BallMoments& out) { simd::dispatch<SumMembers>(c, b, out); }
 
 /// Exact whatever the sizes: 2^32 points at 2^30 steps need 94 bits.
 void sum(const CandidateSet<std::int64_t>& c, const BallQuery<std::int64_t>& ball, BallMoments& out) {
@@ -112,8 +106,8 @@ bool ball_sums_are_exact(double radius, std::size_t count) {
   if constexpr (std::is_same_v<T, std::int64_t>) {
     return true;
   } else {
-    // Every lane adds up at most one term per vector of candidates.
-    const double terms = static_cast<double>(count / simd::VectorOf<T>::kLanes + 1);
+    // Every lane adds up at most one term per vector of candidates; whatever the width, so that the narrowest decides.
+    const double terms = static_cast<double>(count / simd::VectorOf<T, 16>::kLanes + 1);
     return radius * radius < kExactSquares<T> && terms * radius * radius < kExactSquares<T>;
   }
 }
@@ -133,7 +127,7 @@ double extent_bound(const CandidateSet<T>& candidates, const BallQuery<T>& ball,
   if constexpr (std::is_same_v<T, std::int64_t>) {
     return 2.0 * radius;  // The slow path does without this rejection.
   } else {
-    extents(candidates, ball, e, &low, &high);
+    simd::dispatch<Extremes>(candidates, ball, e, low, high);
     // The dot product of three terms in T is off by less than 4 epsilon r at each end.
     return (high - low) + 16.0 * static_cast<double>(std::numeric_limits<T>::epsilon()) * radius;
   }

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "features/simd_avx512.h"
+#include "features/simd_compact.h"
 
 namespace arris {
 namespace {
@@ -40,8 +40,8 @@ std::size_t append(const PointTree& tree, std::size_t begin, std::size_t end, co
   return n;
 }
 
-#if ARRIS_HAS_AVX512
-ARRIS_AVX512 std::size_t append_avx512(const PointTree& tree, std::size_t begin, std::size_t end, const Window<float>& w,
+#if ARRIS_X86_KERNELS
+ARRIS_TARGET_V4 std::size_t append_avx512(const PointTree& tree, std::size_t begin, std::size_t end, const Window<float>& w,
                                        CandidateSet<float>& out, std::size_t n) {
   const __m512i slots = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const std::int32_t* axes[3] = {tree.x(), tree.y(), tree.z()};
@@ -70,14 +70,46 @@ ARRIS_AVX512 std::size_t append_avx512(const PointTree& tree, std::size_t begin,
   }
   return n;
 }
+
+ARRIS_TARGET_V3 std::size_t append_avx2(const PointTree& tree, std::size_t begin, std::size_t end, const Window<float>& w,
+                                        CandidateSet<float>& out, std::size_t n) {
+  const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  const std::int32_t* axes[3] = {tree.x(), tree.y(), tree.z()};
+  for (std::size_t i = begin; i < end; i += 8) {
+    const auto left = static_cast<std::int32_t>(end - i);
+    const __m256i valid = _mm256_cmpgt_epi32(_mm256_set1_epi32(left), lanes);
+    __m256 p[3];
+    __m256 d2 = _mm256_setzero_ps();
+    for (int axis = 0; axis < 3; ++axis) {
+      const __m256i origin = _mm256_set1_epi32(static_cast<std::int32_t>(w.origin[axis]));
+      p[axis] = _mm256_cvtepi32_ps(_mm256_sub_epi32(_mm256_maskload_epi32(axes[axis] + i, valid), origin));
+      const __m256 below = _mm256_sub_ps(_mm256_set1_ps(w.low[axis]), p[axis]);
+      const __m256 above = _mm256_sub_ps(p[axis], _mm256_set1_ps(w.high[axis]));
+      const __m256 gap = _mm256_max_ps(_mm256_max_ps(below, above), _mm256_setzero_ps());
+      d2 = _mm256_add_ps(d2, _mm256_mul_ps(gap, gap));
+    }
+    const __m256 in = _mm256_and_ps(_mm256_cmp_ps(d2, _mm256_set1_ps(w.reach2), _CMP_LE_OQ), _mm256_castsi256_ps(valid));
+    const int mask = _mm256_movemask_ps(in);
+    if (mask == 0) continue;
+    const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i*>(simd::kCompactTable.lanes[mask]));
+    _mm256_storeu_ps(out.x.data() + n, _mm256_permutevar8x32_ps(p[0], order));
+    _mm256_storeu_ps(out.y.data() + n, _mm256_permutevar8x32_ps(p[1], order));
+    _mm256_storeu_ps(out.z.data() + n, _mm256_permutevar8x32_ps(p[2], order));
+    const __m256i index = _mm256_add_epi32(_mm256_set1_epi32(static_cast<std::int32_t>(i)), order);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out.slot.data() + n), index);
+    n += static_cast<std::size_t>(__builtin_popcount(static_cast<unsigned>(mask)));
+  }
+  return n;
+}
 #endif
 
 template <class T>
 std::size_t append_best(const PointTree& tree, std::size_t begin, std::size_t end, const Window<T>& w, CandidateSet<T>& out,
                         std::size_t n) {
-#if ARRIS_HAS_AVX512
+#if ARRIS_X86_KERNELS
   if constexpr (std::is_same_v<T, float>) {
-    if (simd::has_avx512()) return append_avx512(tree, begin, end, w, out, n);
+    if (simd::widest_bytes() == 64) return append_avx512(tree, begin, end, w, out, n);
+    if (simd::widest_bytes() == 32) return append_avx2(tree, begin, end, w, out, n);
   }
 #endif
   return append(tree, begin, end, w, out, n);

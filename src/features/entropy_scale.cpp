@@ -50,6 +50,7 @@ ARRIS_ALWAYS_INLINE V entropy_of(const Eigenvalues<V>& values) {
 }
 
 struct Batch {
+  std::size_t used = 0;  ///< Lanes that mean something; the others only have to be finite.
   double size[kLanes];
   double x[kLanes], y[kLanes], z[kLanes];
   double xx[kLanes], xy[kLanes], xz[kLanes], yy[kLanes], yz[kLanes], zz[kLanes];
@@ -80,33 +81,36 @@ struct Evaluation {
   }
 };
 
-/// Eight neighbourhoods at once.
-ARRIS_SIMD_CLONES void evaluate(const Batch& b, Evaluation& out) {
-  using simd::Double8;
-  const auto n = simd::load<Double8>(b.size);
-  const auto x = simd::load<Double8>(b.x);
-  const auto y = simd::load<Double8>(b.y);
-  const auto z = simd::load<Double8>(b.z);
-  SymmetricMatrix<Double8> c;
-  c.xx = n * simd::load<Double8>(b.xx) - x * x;
-  c.xy = n * simd::load<Double8>(b.xy) - x * y;
-  c.xz = n * simd::load<Double8>(b.xz) - x * z;
-  c.yy = n * simd::load<Double8>(b.yy) - y * y;
-  c.yz = n * simd::load<Double8>(b.yz) - y * z;
-  c.zz = n * simd::load<Double8>(b.zz) - z * z;
-  const Eigenvalues<Double8> values = eigenvalues_of(c);
-  simd::store(out.xx, c.xx);
-  simd::store(out.xy, c.xy);
-  simd::store(out.xz, c.xz);
-  simd::store(out.yy, c.yy);
-  simd::store(out.yz, c.yz);
-  simd::store(out.zz, c.zz);
-  simd::store(out.largest, values.largest);
-  simd::store(out.middle, values.middle);
-  simd::store(out.smallest, values.smallest);
-  const Double8 entropy = entropy_of(values);
-  simd::store(out.entropy, entropy);
-}
+struct Evaluate {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(const Batch& b, Evaluation& out) {
+    using V = typename simd::Wide<Bytes>::Double;
+    for (std::size_t i = 0; i < b.used; i += Bytes / sizeof(double)) {
+      const auto n = simd::load<V>(b.size + i);
+      const auto x = simd::load<V>(b.x + i);
+      const auto y = simd::load<V>(b.y + i);
+      const auto z = simd::load<V>(b.z + i);
+      SymmetricMatrix<V> c;
+      c.xx = n * simd::load<V>(b.xx + i) - x * x;
+      c.xy = n * simd::load<V>(b.xy + i) - x * y;
+      c.xz = n * simd::load<V>(b.xz + i) - x * z;
+      c.yy = n * simd::load<V>(b.yy + i) - y * y;
+      c.yz = n * simd::load<V>(b.yz + i) - y * z;
+      c.zz = n * simd::load<V>(b.zz + i) - z * z;
+      const Eigenvalues<V> values = eigenvalues_of(c);
+      simd::store(out.xx + i, c.xx);
+      simd::store(out.xy + i, c.xy);
+      simd::store(out.xz + i, c.xz);
+      simd::store(out.yy + i, c.yy);
+      simd::store(out.yz + i, c.yz);
+      simd::store(out.zz + i, c.zz);
+      simd::store(out.largest + i, values.largest);
+      simd::store(out.middle + i, values.middle);
+      simd::store(out.smallest + i, values.smallest);
+      simd::store(out.entropy + i, entropy_of(values));
+    }
+  }
+};
 
 /// The running minimum over ascending k.
 struct Best {
@@ -149,7 +153,8 @@ ScaleChoice choose_scale(const Neighbours& neighbours, const ScaleRange& range) 
     }
     for (std::size_t lane = lanes; lane < kLanes; ++lane) batch.set(lane, moments, k);
     Evaluation evaluation;
-    evaluate(batch, evaluation);
+    batch.used = lanes;
+    simd::dispatch<Evaluate>(batch, evaluation);
     const int planar_before = planar.k;
     const int any_before = any.k;
     for (std::size_t lane = 0; lane < lanes; ++lane) {

@@ -1,7 +1,7 @@
 #pragma once
 /// @file Logarithm and arc functions from + - * / sqrt only, so that results do not depend on the C library or the processor.
 ///
-/// `V` is double or simd::Double8; both give the same bits lane by lane.
+/// `V` is double or a vector of doubles; all give the same bits lane by lane.
 
 #include <algorithm>
 #include <cmath>

@@ -22,46 +22,52 @@ struct Sides {
 };
 
 /// Arrays are padded to full vectors with points on the chord, which add nothing.
-ARRIS_SIMD_CLONES void measure(const double* u, const double* v, std::size_t n, const Chord& chord, double magic,
-                               double on_line, double* distance, Sides& sides) {
-  using simd::Double8;
-  Double8 sum{};
-  simd::Long8 left{};
-  simd::Long8 right{};
-  for (std::size_t i = 0; i < n; i += 8) {
-    const Double8 du = simd::load<Double8>(u + i) - chord.x;
-    const Double8 dv = simd::load<Double8>(v + i) - chord.y;
-    const Double8 signed_distance = chord.sx * dv - chord.sy * du;
-    left -= signed_distance > on_line;
-    right -= signed_distance < -on_line;
-    const Double8 size = signed_distance < 0.0 ? -signed_distance : signed_distance;
-    const Double8 rounded = (size + magic) - magic;
-    simd::store(distance + i, rounded);
-    sum += rounded;  // Exact, so any grouping gives the same.
+struct Measure {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(FoldScratch& s, std::size_t n, const Chord& chord, double magic, double on_line, Sides& sides) {
+    using V = typename simd::Wide<Bytes>::Double;
+    using Mask = typename simd::Wide<Bytes>::Long;
+    constexpr std::size_t kLanes = Bytes / sizeof(double);
+    V sum{};
+    Mask left{};
+    Mask right{};
+    for (std::size_t i = 0; i < n; i += kLanes) {
+      const V du = simd::load<V>(s.u.data() + i) - chord.x;
+      const V dv = simd::load<V>(s.v.data() + i) - chord.y;
+      const V signed_distance = chord.sx * dv - chord.sy * du;
+      left -= signed_distance > on_line;
+      right -= signed_distance < -on_line;
+      const V size = signed_distance < 0.0 ? -signed_distance : signed_distance;
+      const V rounded = (size + magic) - magic;
+      simd::store(s.distance.data() + i, rounded);
+      sum += rounded;  // Exact, so any grouping gives the same.
+    }
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      sides.sum += sum[lane];
+      sides.left += static_cast<std::size_t>(left[lane]);
+      sides.right += static_cast<std::size_t>(right[lane]);
+    }
   }
-  for (std::size_t lane = 0; lane < 8; ++lane) {
-    sides.sum += sum[lane];
-    sides.left += static_cast<std::size_t>(left[lane]);
-    sides.right += static_cast<std::size_t>(right[lane]);
-  }
-}
+};
 
-ARRIS_SIMD_CLONES double sum_of_squares(const double* distance, std::size_t n, double mean, double magic) {
-  using simd::Double8;
-  Double8 sum{};
-  const std::size_t whole = n / 8 * 8;
-  for (std::size_t i = 0; i < whole; i += 8) {
-    const Double8 off = simd::load<Double8>(distance + i) - mean;
-    sum += (off * off + magic) - magic;
+struct SumOfSquares {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(const double* distance, std::size_t n, double mean, double magic, double& total) {
+    using V = typename simd::Wide<Bytes>::Double;
+    constexpr std::size_t kLanes = Bytes / sizeof(double);
+    V sum{};  // Exact, as above.
+    std::size_t i = 0;
+    for (; i + kLanes <= n; i += kLanes) {
+      const V off = simd::load<V>(distance + i) - mean;
+      sum += (off * off + magic) - magic;
+    }
+    for (std::size_t lane = 0; lane < kLanes; ++lane) total += sum[lane];
+    for (; i < n; ++i) {
+      const double off = distance[i] - mean;
+      total += (off * off + magic) - magic;
+    }
   }
-  double total = 0.0;
-  for (std::size_t lane = 0; lane < 8; ++lane) total += sum[lane];
-  for (std::size_t i = whole; i < n; ++i) {
-    const double off = distance[i] - mean;
-    total += (off * off + magic) - magic;
-  }
-  return total;
-}
+};
 
 void project(const PrincipalFrame& frame, FoldScratch& s) {
   const std::size_t n = s.members.size();
@@ -142,10 +148,11 @@ void evaluate_fold(const PrincipalFrame& frame, const FoldThresholds& thresholds
   }
   const FixedPoint to_line(2.0 * thresholds.radius, n, kDistanceBits);
   Sides sides;
-  measure(s.u.data(), s.v.data(), simd::padded(n), chord, to_line.magic(), kOnLine * thresholds.radius, s.distance.data(), sides);
+  simd::dispatch<Measure>(s, simd::padded(n), chord, to_line.magic(), kOnLine * thresholds.radius, sides);
   const double mean = sides.sum / static_cast<double>(n);
   const FixedPoint to_square(4.0 * thresholds.radius * thresholds.radius, n, kSquareBits);
-  const double squares = sum_of_squares(s.distance.data(), n, mean, to_square.magic());
+  double squares = 0.0;
+  simd::dispatch<SumOfSquares>(s.distance.data(), n, mean, to_square.magic(), squares);
   const double cf1 = std::sqrt(squares / static_cast<double>(n - 1));
   if (!(cf1 >= thresholds.cf1)) return;
   const auto majority = static_cast<double>(std::max(sides.left, sides.right));

@@ -20,20 +20,25 @@ struct Weights {
 };
 const Weights kWeights;
 
-/// Sums over neighbours [first, n), in lanes that depend on j alone.
-ARRIS_SIMD_CLONES double weighted_sum(const double* d2, std::size_t first, std::size_t n) {
-  using simd::Double8;
-  Double8 sum{};
-  for (std::size_t j = first / 8 * 8; j < n; j += 8) {
-    const Double8 terms = simd::square_root(simd::load<Double8>(d2 + j)) * simd::load<Double8>(kWeights.at + j);
-    simd::Long8 index;
-    for (std::size_t lane = 0; lane < 8; ++lane) index[lane] = static_cast<std::int64_t>(j + lane);
-    const auto inside = (index >= static_cast<std::int64_t>(first)) & (index < static_cast<std::int64_t>(n));
-    sum = inside ? sum + terms : sum;
+struct Terms {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(const double* d2, const double* weights, std::size_t n, double* terms) {
+    using V = typename simd::Wide<Bytes>::Double;
+    for (std::size_t j = 0; j < n; j += Bytes / sizeof(double)) {
+      const V term = simd::square_root(simd::load<V>(d2 + j)) * simd::load<V>(weights + j);
+      simd::store(terms + j, term);
+    }
   }
-  double total = 0.0;
-  for (std::size_t lane = 0; lane < 8; ++lane) total += sum[lane];
-  return total;
+};
+
+/// Sum over neighbours [first, n) in four interleaved parts.
+double weighted_sum(const double* d2, std::size_t first, std::size_t n) {
+  double terms[simd::padded(256)];
+  const std::size_t aligned = first / 8 * 8;
+  simd::dispatch<Terms>(d2 + aligned, kWeights.at + aligned, n - aligned, terms);
+  double parts[4] = {};
+  for (std::size_t j = first; j < n; ++j) parts[j % 4] += terms[j - aligned];
+  return (parts[0] + parts[1]) + (parts[2] + parts[3]);
 }
 
 }  // namespace

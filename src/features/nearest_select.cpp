@@ -4,7 +4,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "features/simd_avx512.h"
+#include "features/simd_compact.h"
 
 namespace arris {
 namespace {
@@ -35,8 +35,8 @@ ARRIS_ALWAYS_INLINE std::size_t collect_within(const CandidateSet<T>& c, const N
   return n;
 }
 
-#if ARRIS_HAS_AVX512
-ARRIS_AVX512 std::size_t collect_avx512(const CandidateSet<float>& c, const NearestQuery<float>& q, float limit, float* d2_out,
+#if ARRIS_X86_KERNELS
+ARRIS_TARGET_V4 std::size_t collect_avx512(const CandidateSet<float>& c, const NearestQuery<float>& q, float limit, float* d2_out,
                                         std::uint32_t* candidate_out) {
   const __m512 qx = _mm512_set1_ps(q.x);
   const __m512 qy = _mm512_set1_ps(q.y);
@@ -57,39 +57,62 @@ ARRIS_AVX512 std::size_t collect_avx512(const CandidateSet<float>& c, const Near
   }
   return n;
 }
+
+ARRIS_TARGET_V3 std::size_t collect_avx2(const CandidateSet<float>& c, const NearestQuery<float>& q, float limit, float* d2_out,
+                                         std::uint32_t* candidate_out) {
+  const __m256 qx = _mm256_set1_ps(q.x);
+  const __m256 qy = _mm256_set1_ps(q.y);
+  const __m256 qz = _mm256_set1_ps(q.z);
+  const __m256 most = _mm256_set1_ps(limit);
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < simd::padded(c.count); i += 8) {
+    const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(c.x.data() + i), qx);
+    const __m256 dy = _mm256_sub_ps(_mm256_loadu_ps(c.y.data() + i), qy);
+    const __m256 dz = _mm256_sub_ps(_mm256_loadu_ps(c.z.data() + i), qz);
+    const __m256 d2 = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)), _mm256_mul_ps(dz, dz));
+    const int mask = _mm256_movemask_ps(_mm256_cmp_ps(d2, most, _CMP_LE_OQ));
+    const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i*>(simd::kCompactTable.lanes[mask]));
+    _mm256_storeu_ps(d2_out + n, _mm256_permutevar8x32_ps(d2, order));
+    const __m256i index = _mm256_add_epi32(_mm256_set1_epi32(static_cast<std::int32_t>(i)), order);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(candidate_out + n), index);
+    n += static_cast<std::size_t>(__builtin_popcount(static_cast<unsigned>(mask)));
+  }
+  return n;
+}
 #endif
 
 template <class T>
 std::size_t collect(const CandidateSet<T>& c, const NearestQuery<T>& q, T limit, T* d2, std::uint32_t* candidate) {
-#if ARRIS_HAS_AVX512
+#if ARRIS_X86_KERNELS
   if constexpr (std::is_same_v<T, float>) {
-    if (simd::has_avx512()) return collect_avx512(c, q, limit, d2, candidate);
+    if (simd::widest_bytes() == 64) return collect_avx512(c, q, limit, d2, candidate);
+    if (simd::widest_bytes() == 32) return collect_avx2(c, q, limit, d2, candidate);
   }
 #endif
   return collect_within(c, q, limit, d2, candidate);
 }
 
 /// rank[i] = how many of the n values are smaller than values[i]. `values` is padded to full vectors.
-template <class T>
-ARRIS_ALWAYS_INLINE void count_smaller(const T* values, std::size_t n, std::int32_t* rank) {
-  using V = typename simd::VectorOf<T>::Type;
-  using Mask = typename simd::VectorOf<T>::Mask;
-  constexpr std::size_t kLanes = simd::VectorOf<T>::kLanes;
-  for (std::size_t block = 0; block < n; block += kLanes) {
-    const V mine = simd::load<V>(values + block);
-    Mask smaller{};
-    for (std::size_t j = 0; j < n; ++j) smaller -= (mine > values[j]);
-    for (std::size_t lane = 0; lane < kLanes; ++lane) rank[block + lane] = static_cast<std::int32_t>(smaller[lane]);
+struct CountSmaller {
+  template <int Bytes, class T>
+  static ARRIS_ALWAYS_INLINE void run(const T* values, std::size_t n, std::int32_t* rank) {
+    using V = typename simd::VectorOf<T, Bytes>::Type;
+    using Mask = typename simd::VectorOf<T, Bytes>::Mask;
+    constexpr std::size_t kLanes = simd::VectorOf<T, Bytes>::kLanes;
+    for (std::size_t block = 0; block < n; block += kLanes) {
+      const V mine = simd::load<V>(values + block);
+      Mask smaller{};
+      for (std::size_t j = 0; j < n; ++j) smaller -= (mine > values[j]);
+      for (std::size_t lane = 0; lane < kLanes; ++lane) rank[block + lane] = static_cast<std::int32_t>(smaller[lane]);
+    }
   }
-}
-
-ARRIS_SIMD_CLONES void ranks(const float* values, std::size_t n, std::int32_t* rank) { count_smaller(values, n, rank); }
-ARRIS_SIMD_CLONES void ranks(const double* values, std::size_t n, std::int32_t* rank) { count_smaller(values, n, rank); }
+};
 
 template <class T>
 void sort_by_rank(NearestScratch<T>& s, std::size_t n) {
   for (std::size_t i = n; i < simd::padded(n); ++i) s.d2[i] = std::numeric_limits<T>::infinity();
-  ranks(s.d2.data(), n, s.rank.data());
+  const T* values = s.d2.data();
+  simd::dispatch<CountSmaller>(values, n, s.rank.data());
   constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
   std::fill_n(s.sorted.begin(), n, kFree);
   for (std::size_t i = 0; i < n; ++i) {

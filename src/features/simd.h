@@ -1,11 +1,15 @@
 #pragma once
-/// @file Fixed-width vectors for the hot loops, lowered by the compiler to whatever the processor has.
+/// @file Vectors of a width chosen at run time, for the hot loops.
 ///
-/// Law: a kernel gives the same bits on every instruction set. The lanes are part of the algorithm (a Double8 is eight partial sums
-/// everywhere), contraction is off, and only + - * / sqrt, comparisons and bit operations are used, all exactly defined by IEEE 754.
+/// A kernel is a struct with a static template `run<Bytes>(args...)` that works with vectors of that many bytes; simd::dispatch
+/// calls it at the width that the processor has, in a function compiled for that processor.
+///
+/// Law: a kernel gives the same bits at every width. Contraction is off, and only + - * / sqrt, comparisons and bit operations are
+/// used, all exactly defined by IEEE 754; sums over lanes are either exact or made in an order that the width does not touch.
 
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -13,41 +17,45 @@
 #pragma GCC diagnostic ignored "-Wpsabi"  // Vectors never cross a call that is not inlined, so their ABI does not matter.
 #endif
 
-// One clone per instruction set, chosen when the program is loaded. Not with sanitizers: the resolvers run before their runtime is up.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(ARRIS_NO_SIMD_CLONES)
-#define ARRIS_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#define ARRIS_HAS_SIMD_CLONES 1
-#else
-#define ARRIS_SIMD_CLONES
-#define ARRIS_HAS_SIMD_CLONES 0
-#endif
 #define ARRIS_ALWAYS_INLINE inline __attribute__((always_inline))
+
+#if defined(__GNUC__) && defined(__x86_64__) && !defined(ARRIS_PLAIN_KERNELS)
+#define ARRIS_X86_KERNELS 1
+#define ARRIS_TARGET_V3 __attribute__((target("avx2,bmi,bmi2,lzcnt,popcnt,fma")))
+#define ARRIS_TARGET_V4 __attribute__((target("avx2,bmi,bmi2,lzcnt,popcnt,fma,avx512f,avx512bw,avx512cd,avx512dq,avx512vl")))
+#else
+#define ARRIS_X86_KERNELS 0
+#endif
 
 namespace arris::simd {
 
-typedef float Float16 __attribute__((vector_size(64)));
-typedef std::int32_t Int16 __attribute__((vector_size(64)));
-typedef double Double8 __attribute__((vector_size(64)));
-typedef std::int64_t Long8 __attribute__((vector_size(64)));
+template <int Bytes>
+struct Wide {
+  typedef float Float __attribute__((vector_size(Bytes)));
+  typedef double Double __attribute__((vector_size(Bytes)));
+  typedef std::int32_t Int __attribute__((vector_size(Bytes)));
+  typedef std::int64_t Long __attribute__((vector_size(Bytes)));
+  typedef std::uint64_t Unsigned __attribute__((vector_size(Bytes)));
+};
 
-/// The vector of a scalar type, and how many lanes it has.
-template <class T>
+/// The vector of float or double, the integers that its comparisons give, and how many lanes it has.
+template <class T, int Bytes>
 struct VectorOf;
-template <>
-struct VectorOf<float> {
-  using Type = Float16;
-  using Mask = Int16;
-  static constexpr std::size_t kLanes = 16;
+template <int Bytes>
+struct VectorOf<float, Bytes> {
+  using Type = typename Wide<Bytes>::Float;
+  using Mask = typename Wide<Bytes>::Int;
+  static constexpr std::size_t kLanes = Bytes / sizeof(float);
 };
-template <>
-struct VectorOf<double> {
-  using Type = Double8;
-  using Mask = Long8;
-  static constexpr std::size_t kLanes = 8;
+template <int Bytes>
+struct VectorOf<double, Bytes> {
+  using Type = typename Wide<Bytes>::Double;
+  using Mask = typename Wide<Bytes>::Long;
+  static constexpr std::size_t kLanes = Bytes / sizeof(double);
 };
 
-/// Arrays read by kernels are padded to a multiple of this.
+constexpr int kWidestBytes = 64;
+/// Arrays read by kernels are padded to a multiple of this many elements.
 constexpr std::size_t kPadding = 16;
 constexpr std::size_t padded(std::size_t count) { return (count + kPadding - 1) / kPadding * kPadding; }
 
@@ -64,23 +72,72 @@ ARRIS_ALWAYS_INLINE void store(T* to, const V& v) {
 }
 
 ARRIS_ALWAYS_INLINE double square_root(double v) { return std::sqrt(v); }
-ARRIS_ALWAYS_INLINE Double8 square_root(const Double8& v) {
-  Double8 root;
-  for (int lane = 0; lane < 8; ++lane) root[lane] = std::sqrt(v[lane]);
+template <class V>
+ARRIS_ALWAYS_INLINE V square_root(const V& v) {
+  V root;
+  for (std::size_t lane = 0; lane < sizeof(V) / sizeof(double); ++lane) root[lane] = std::sqrt(v[lane]);
   return root;
 }
 
+/// Bits of doubles, one or many.
 ARRIS_ALWAYS_INLINE std::int64_t bits(double v) { return std::bit_cast<std::int64_t>(v); }
-ARRIS_ALWAYS_INLINE Long8 bits(const Double8& v) { return (Long8)v; }
+template <class V>
+ARRIS_ALWAYS_INLINE auto bits(const V& v) {
+  return (typename Wide<sizeof(V)>::Long)v;
+}
 ARRIS_ALWAYS_INLINE double from_bits(std::int64_t v) { return std::bit_cast<double>(v); }
-ARRIS_ALWAYS_INLINE Double8 from_bits(const Long8& v) { return (Double8)v; }
-
+template <class L>
+ARRIS_ALWAYS_INLINE auto from_bits(const L& v) {
+  return (typename Wide<sizeof(L)>::Double)v;
+}
 ARRIS_ALWAYS_INLINE std::int64_t shift_right_unsigned(std::int64_t v, int by) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(v) >> by);
 }
-ARRIS_ALWAYS_INLINE Long8 shift_right_unsigned(const Long8& v, int by) {
-  typedef std::uint64_t Unsigned8 __attribute__((vector_size(64)));
-  return (Long8)((Unsigned8)v >> static_cast<std::uint64_t>(by));
+template <class L>
+ARRIS_ALWAYS_INLINE L shift_right_unsigned(const L& v, int by) {
+  return (L)((typename Wide<sizeof(L)>::Unsigned)v >> static_cast<std::uint64_t>(by));
+}
+
+/// What the processor offers: 64 with AVX-512, 32 with AVX2, else 16.
+inline int widest_bytes() {
+#if ARRIS_X86_KERNELS
+  static const int bytes = [] {
+    const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+                    __builtin_cpu_supports("popcnt") && __builtin_cpu_supports("fma");
+    const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                    __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    return v4 ? 64 : v3 ? 32 : 16;
+  }();
+  return bytes;
+#else
+  return 16;
+#endif
+}
+
+#if ARRIS_X86_KERNELS
+template <class Kernel, class... Args>
+ARRIS_TARGET_V4 void run_v4(Args&... args) {
+  Kernel::template run<64>(args...);
+}
+template <class Kernel, class... Args>
+ARRIS_TARGET_V3 void run_v3(Args&... args) {
+  Kernel::template run<32>(args...);
+}
+#endif
+
+/// Calls Kernel::run, which must be always inline, at the given width or the processor's.
+template <class Kernel, class... Args>
+void dispatch_at(int bytes, Args&&... args) {
+#if ARRIS_X86_KERNELS
+  if (bytes == 64) return run_v4<Kernel>(args...);
+  if (bytes == 32) return run_v3<Kernel>(args...);
+#endif
+  static_cast<void>(bytes);
+  Kernel::template run<16>(args...);
+}
+template <class Kernel, class... Args>
+void dispatch(Args&&... args) {
+  dispatch_at<Kernel>(widest_bytes(), args...);
 }
 
 }  // namespace arris::simd

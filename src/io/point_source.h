@@ -32,8 +32,8 @@ struct SourceInfo {
   bool scaled_integers = false;
   std::array<double, 3> scale{1.0, 1.0, 1.0};
   std::array<double, 3> offset{0.0, 0.0, 0.0};
-  std::size_t record_bytes =
-      0;  ///< Size of one original record; 0 where records have no fixed size (PLY ascii or with lists).
+  /// Size of one original record; 0 where records have no fixed size (PLY ascii or with lists).
+  std::size_t record_bytes = 0;
   std::vector<Problem> problems;  ///< Found while opening; worth a warning each.
 };
 

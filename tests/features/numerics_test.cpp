@@ -29,9 +29,9 @@ TEST(ExactMath, VectorLogarithm_HasTheBitsOfTheScalar) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int i = 0; i < 1000; ++i) {
-    simd::Double8 x;
+    simd::Wide<64>::Double x;
     for (int lane = 0; lane < 8; ++lane) x[lane] = unit(random);
-    const simd::Double8 y = log_of_positive(x);
+    const simd::Wide<64>::Double y = log_of_positive(x);
     for (int lane = 0; lane < 8; ++lane) EXPECT_EQ(y[lane], log_of_positive(static_cast<double>(x[lane])));
   }
 }

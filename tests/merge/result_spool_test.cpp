@@ -28,7 +28,7 @@ class TempFolder {
 };
 
 ContourRecord record(std::uint64_t id, std::uint8_t classes, std::uint32_t votes, float strength, float angle) {
-  return {id, classes, votes, strength * 10.0F, strength, angle};
+  return {id, classes, votes, strength * 10.0F, strength, strength > 0.0F ? angle : 0.0F};
 }
 
 // The law: whatever the split into appends and their order, a bucket holds the combination of all records of each id.

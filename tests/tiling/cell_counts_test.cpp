@@ -150,6 +150,18 @@ TEST(CellCounts, RemoveDownToACarriedCount_LeavesTheCellOccupied) {
   EXPECT_EQ(counts.active_cells(), 1U);
 }
 
+TEST(CellCounts, MoreLeavesThanAnyCacheHolds_StayApart) {
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<LatticePoint> line;
+    for (std::int32_t i = 0; i < 6000; ++i) {
+      line.push_back({axis == 0 ? 8 * i : 1, axis == 1 ? 8 * i : 2, axis == 2 ? 8 * i : 3});
+    }
+    CellCounts counts(0);
+    counts.add(line);
+    EXPECT_EQ(listed(counts), brute_force(line, 0));
+  }
+}
+
 TEST(CellCounts, PointsAtTheEndsOfInt32_HaveTheirOwnCells) {
   constexpr std::int32_t kLow = std::numeric_limits<std::int32_t>::min(),
                          kHigh = std::numeric_limits<std::int32_t>::max();
