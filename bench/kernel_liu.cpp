@@ -1,6 +1,7 @@
 // Times extract_liu on one tile in memory: points per CPU second, without any file. Not part of the default build.
 //
-//   kernel_liu [shape = box | plane] [points = 1000000] [noise in spacings = 0.1] [spacing in lattice steps = 25] [threads = 1] [all]
+//   kernel_liu [shape = box | plane] [points = 1000000] [noise in spacings = 0.1] [spacing in lattice steps = 25]
+//   [threads = 1] [all]
 
 #include <sys/resource.h>
 
@@ -20,7 +21,9 @@ namespace {
 double cpu_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -28,7 +31,8 @@ double cpu_seconds() {
 std::uint64_t checksum(const std::vector<arris::ContourRecord>& records) {
   std::uint64_t sum = 0;
   for (const arris::ContourRecord& r : records) {
-    for (const std::uint64_t part : {r.id, std::uint64_t{r.classes}, std::uint64_t{r.votes}, std::uint64_t{std::bit_cast<std::uint32_t>(r.gap_deg)},
+    for (const std::uint64_t part : {r.id, std::uint64_t{r.classes}, std::uint64_t{r.votes},
+                                     std::uint64_t{std::bit_cast<std::uint32_t>(r.gap_deg)},
                                      std::uint64_t{std::bit_cast<std::uint32_t>(r.fold_strength)},
                                      std::uint64_t{std::bit_cast<std::uint32_t>(r.fold_angle_deg)}}) {
       sum = (sum ^ part) * 0x9e3779b97f4a7c15ULL;
@@ -52,7 +56,8 @@ arris::TilePoints cloud(const std::string& shape, std::size_t points, double noi
     if (face % 2 == 1) p[2] = side;
     std::rotate(p, p + face / 2, p + 3);
     for (double& c : p) c += off(random);
-    tile.positions.push_back({static_cast<std::int32_t>(std::lround(p[0])), static_cast<std::int32_t>(std::lround(p[1])),
+    tile.positions.push_back({static_cast<std::int32_t>(std::lround(p[0])),
+                              static_cast<std::int32_t>(std::lround(p[1])),
                               static_cast<std::int32_t>(std::lround(p[2]))});
   }
   std::sort(tile.positions.begin(), tile.positions.end());
@@ -83,8 +88,8 @@ int main(int argc, char** argv) {
     const arris::TileContours found = extract_liu(tile, lattice, parameters);
     const double seconds = cpu_seconds() - before;
     std::printf("%-16s %9zu points  %8zu records (%016llx)  %6.3f CPU s  %.3f M points per CPU second\n", what,
-                tile.positions.size(), found.records.size(), static_cast<unsigned long long>(checksum(found.records)), seconds,
-                static_cast<double>(tile.positions.size()) / seconds * 1e-6);
+                tile.positions.size(), found.records.size(), static_cast<unsigned long long>(checksum(found.records)),
+                seconds, static_cast<double>(tile.positions.size()) / seconds * 1e-6);
   };
   time("all");
   if (argc > 6) return 0;

@@ -34,10 +34,12 @@ int main(int argc, char** argv) {
     for (std::size_t i = 0; i < batch.count; ++i) {
       // Relative to the offset: PCL's coordinates are float.
       if (info.scaled_integers) {
-        cloud->emplace_back(static_cast<float>(batch.ix[i] * info.scale[0]), static_cast<float>(batch.iy[i] * info.scale[1]),
+        cloud->emplace_back(static_cast<float>(batch.ix[i] * info.scale[0]),
+                            static_cast<float>(batch.iy[i] * info.scale[1]),
                             static_cast<float>(batch.iz[i] * info.scale[2]));
       } else {
-        cloud->emplace_back(static_cast<float>(batch.x[i]), static_cast<float>(batch.y[i]), static_cast<float>(batch.z[i]));
+        cloud->emplace_back(static_cast<float>(batch.x[i]), static_cast<float>(batch.y[i]),
+                            static_cast<float>(batch.z[i]));
       }
     }
   }
@@ -61,7 +63,7 @@ int main(int argc, char** argv) {
   std::size_t found = 0;
   for (const pcl::Boundary& b : boundaries) found += b.boundary_point != 0;
   const double millions = static_cast<double>(cloud->size()) / 1e6;
-  std::printf("points %zu  boundary %zu  CPU s: read %.2f, normals %.2f, boundary %.2f  = %.2f M points per CPU s\n", cloud->size(),
-              found, read, with_normals - read, all - with_normals, millions / all);
+  std::printf("points %zu  boundary %zu  CPU s: read %.2f, normals %.2f, boundary %.2f  = %.2f M points per CPU s\n",
+              cloud->size(), found, read, with_normals - read, all - with_normals, millions / all);
   return 0;
 }

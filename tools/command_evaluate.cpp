@@ -74,7 +74,8 @@ void add_input(const std::string& path, evaluate::InputCoverage& coverage) {
   while (inputs.read(batch, {})) {
     const io::SourceInfo& info = inputs.sources()[inputs.source_index()];
     points.clear();
-    for (std::size_t i = 0; i < batch.count; ++i) points.push_back({world(batch, info, 0, i), world(batch, info, 1, i), world(batch, info, 2, i)});
+    for (std::size_t i = 0; i < batch.count; ++i)
+      points.push_back({world(batch, info, 0, i), world(batch, info, 1, i), world(batch, info, 2, i)});
     coverage.add(points);
   }
 }
@@ -93,7 +94,8 @@ int run_evaluate(const EvaluateOptions& o) {
     coverage.emplace(truth, options);
     add_input(o.input, *coverage);
   }
-  const evaluate::ContourEvaluation result = evaluate::evaluate_contours(points, truth, options, coverage ? &*coverage : nullptr);
+  const evaluate::ContourEvaluation result =
+      evaluate::evaluate_contours(points, truth, options, coverage ? &*coverage : nullptr);
   write_text("-", o.json ? evaluate::to_json(result) : evaluate::to_table(result), false);
   return 0;
 }
@@ -106,13 +108,15 @@ void add_evaluate(CLI::App& app, Session& session) {
   verb->add_option("prediction", o->prediction, "Contour points (output of extract), or any cloud")->required();
   verb->add_option("--truth", o->truth, "Truth of the scene (CSV of synth)")->required();
   verb->add_option("--input", o->input, "The scan itself: prints the recall that a perfect detector could reach on it");
-  verb->add_option("--edges", o->edges, "Truth that counts: all, folds, boundaries, or kinds joined by commas")->capture_default_str();
+  verb->add_option("--edges", o->edges, "Truth that counts: all, folds, boundaries, or kinds joined by commas")
+      ->capture_default_str();
   verb->add_option("--classes", o->classes, "Predictions that count")
       ->check(CLI::IsMember({"all", "fold", "boundary", "strong-boundary"}))
       ->capture_default_str();
   verb->add_option("--spacing", o->spacing, "Point spacing (length; default: the truth's)");
   verb->add_option("--noise", o->noise, "Noise (length; default: the truth's)");
-  verb->add_flag("--forgive-other-kinds", o->forgive, "Predictions near truth that does not count are left out instead of called false");
+  verb->add_flag("--forgive-other-kinds", o->forgive,
+                 "Predictions near truth that does not count are left out instead of called false");
   verb->add_flag("--json", o->json, "As JSON");
   verb->callback([o, &session] { session.run = [o] { return run_evaluate(*o); }; });
 }

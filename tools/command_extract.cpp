@@ -32,18 +32,18 @@ std::string describe_choices(const pipeline::ExtractReport& r, const std::string
   return fmt::format(
       "spacing about {:.4g}, ball radius {}, search limit {:.4g}; lattice step {:g}\n"
       "memory {} ({}), {} threads; {} tiles of at most {} points, halo {:.3g} to {:.3g}",
-      r.spacing, ball, r.parameters.max_radius, r.lattice.step, human_bytes(r.memory_budget_bytes), memory_why, r.threads,
-      grouped(r.tiles), grouped(r.tile_points_limit), r.least_halo, r.widest_halo);
+      r.spacing, ball, r.parameters.max_radius, r.lattice.step, human_bytes(r.memory_budget_bytes), memory_why,
+      r.threads, grouped(r.tiles), grouped(r.tile_points_limit), r.least_halo, r.widest_halo);
 }
 
 std::string describe_result(const pipeline::ExtractReport& r) {
   double seconds = 0.0;
   for (const auto& [phase, s] : r.seconds) seconds += s;
-  std::string text = fmt::format("{} points in, {} out ({}): {} boundary, {} weak boundary, {} fold\n", grouped(r.points_in),
-                                 grouped(r.points_out), percent(r.points_out, r.points_in), grouped(r.boundary),
-                                 grouped(r.weak_boundary), grouped(r.fold));
-  text += fmt::format("{:.1f} s, {:.1f} CPU s, peak memory {} of {}", seconds, r.cpu_seconds, human_bytes(r.peak_resident_bytes),
-                      human_bytes(r.memory_budget_bytes));
+  std::string text = fmt::format("{} points in, {} out ({}): {} boundary, {} weak boundary, {} fold\n",
+                                 grouped(r.points_in), grouped(r.points_out), percent(r.points_out, r.points_in),
+                                 grouped(r.boundary), grouped(r.weak_boundary), grouped(r.fold));
+  text += fmt::format("{:.1f} s, {:.1f} CPU s, peak memory {} of {}", seconds, r.cpu_seconds,
+                      human_bytes(r.peak_resident_bytes), human_bytes(r.memory_budget_bytes));
   for (const std::string& output : r.outputs) text += "\nwrote " + printable(output);
   return text;
 }
@@ -77,7 +77,8 @@ std::string describe_plan(const pipeline::ExtractReport& r, const std::string& m
   text += fmt::format("search limit      {:.4g}\n", r.parameters.max_radius);
   text += fmt::format("tiles             {} of at most {} points (limit {}), {} in flight\n", grouped(r.tiles),
                       grouped(r.largest_tile_points), grouped(r.tile_points_limit), r.tile_workers);
-  text += fmt::format("halo              {:.4g} to {:.4g}; {:.2f} copies of each point\n", r.least_halo, r.widest_halo, r.duplication);
+  text += fmt::format("halo              {:.4g} to {:.4g}; {:.2f} copies of each point\n", r.least_halo, r.widest_halo,
+                      r.duplication);
   text += fmt::format("peak memory       {} predicted of {} ({})\n", human_bytes(r.predicted_peak_bytes),
                       human_bytes(r.memory_budget_bytes), memory_why);
   text += fmt::format("temporary files   {} predicted\n", human_bytes(r.predicted_temp_bytes));
@@ -100,7 +101,9 @@ void add_extract(CLI::App& app, Session& session) {
   auto options = std::make_shared<ExtractOptions>();
   CLI::App* verb = app.add_subcommand("extract", "Contour points: boundaries and folds");
   add_job_options(*verb, options->job);
-  verb->add_option("-o,--output", options->outputs, "Output, .las or .ply; may be given several times")->required()->take_all();
+  verb->add_option("-o,--output", options->outputs, "Output, .las or .ply; may be given several times")
+      ->required()
+      ->take_all();
   verb->add_option("--report", options->report, "Write what was done as JSON");
   verb->add_flag("--overwrite", options->overwrite, "Replace existing outputs");
   verb->add_flag("--keep-all", options->keep_all, "Write every point, with EdgeClass 0 where it is no contour point");

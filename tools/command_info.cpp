@@ -76,21 +76,27 @@ Json to_json(const io::FileSummary& file, const Counted& counted) {
             {"crs", file.crs}};
   json["header"] = Json::object();
   for (const auto& [name, value] : file.header) json["header"][name] = value;
-  if (file.claimed_bounds) json["claimed_bounds"] = {{"min", file.claimed_bounds->min}, {"max", file.claimed_bounds->max}};
+  if (file.claimed_bounds)
+    json["claimed_bounds"] = {{"min", file.claimed_bounds->min}, {"max", file.claimed_bounds->max}};
   json["records"] = Json::array();
   for (const io::RecordSummary& r : file.records) {
-    json["records"].push_back({{"user_id", r.user_id}, {"record_id", r.record_id}, {"description", r.description}, {"length", r.length}, {"extended", r.extended}});
+    json["records"].push_back({{"user_id", r.user_id},
+                               {"record_id", r.record_id},
+                               {"description", r.description},
+                               {"length", r.length},
+                               {"extended", r.extended}});
   }
   json["attributes"] = Json::array();
-  for (const io::AttributeSummary& a : file.attributes) json["attributes"].push_back({{"name", a.name}, {"type", a.type}, {"description", a.description}});
+  for (const io::AttributeSummary& a : file.attributes)
+    json["attributes"].push_back({{"name", a.name}, {"type", a.type}, {"description", a.description}});
   json["problems"] = Json::array();
   for (const io::Problem& p : file.problems) json["problems"].push_back({{"code", p.code}, {"text", p.text}});
   return json;
 }
 
 std::string to_text(const io::FileSummary& file, const Counted& counted) {
-  std::string text = fmt::format("{}\n  {}, {}\n  points   {}", printable(file.info.path.string(), 4096), file.info.layout,
-                                 human_bytes(file.info.size_bytes), grouped(counted.points));
+  std::string text = fmt::format("{}\n  {}, {}\n  points   {}", printable(file.info.path.string(), 4096),
+                                 file.info.layout, human_bytes(file.info.size_bytes), grouped(counted.points));
   if (counted.non_finite > 0) text += fmt::format(" ({} without a position)", grouped(counted.non_finite));
   text += "\n";
   if (counted.points > counted.non_finite) {
@@ -104,7 +110,8 @@ std::string to_text(const io::FileSummary& file, const Counted& counted) {
     text += fmt::format("  attribute {} ({}){}\n", a.name, a.type, a.description.empty() ? "" : ": " + a.description);
   }
   for (const io::RecordSummary& r : file.records) {
-    text += fmt::format("  record   {} {} ({} bytes){}\n", r.user_id, r.record_id, r.length, r.description.empty() ? "" : ": " + r.description);
+    text += fmt::format("  record   {} {} ({} bytes){}\n", r.user_id, r.record_id, r.length,
+                        r.description.empty() ? "" : ": " + r.description);
   }
   for (const io::Problem& p : file.problems) text += fmt::format("  problem  {} [{}]\n", p.text, p.code);
   return text;
@@ -117,7 +124,8 @@ int run_info(const InfoOptions& o, Session& session) {
   for (const std::filesystem::path& path : io::expand_inputs(o.inputs)) {
     io::FileSummary file = io::summarize_file(path);
     const Counted counted = count_points(path, display, session.cancel);
-    if (box_is_wrong(file, counted)) file.problems.push_back({"bbox-mismatch", "the bounding box in the header is not that of the points"});
+    if (box_is_wrong(file, counted))
+      file.problems.push_back({"bbox-mismatch", "the bounding box in the header is not that of the points"});
     if (o.json) {
       json["files"].push_back(to_json(file, counted));
     } else {

@@ -48,7 +48,8 @@ void parse_settings(const std::vector<std::string>& settings, std::map<std::stri
     const std::size_t equals = setting.find('=');
     double value = 0.0;
     const char* end = setting.data() + setting.size();
-    if (equals == std::string::npos || std::from_chars(setting.data() + equals + 1, end, value).ptr != end || equals + 1 == setting.size()) {
+    if (equals == std::string::npos || std::from_chars(setting.data() + equals + 1, end, value).ptr != end ||
+        equals + 1 == setting.size()) {
       throw ConfigError(fmt::format("--set '{}' is not NAME=NUMBER", printable(setting, 60)));
     }
     options[setting.substr(0, equals)] = value;
@@ -94,7 +95,8 @@ int run_synth(SynthOptions& o, Session& session) {
   if (!o.truth.empty()) evaluate::write_truth_csv(std::filesystem::path(o.truth), scene.truth(), o.overwrite);
   writer->commit();
   display.finish();
-  display.note(fmt::format("{}: {} points, spacing {:.4g}; wrote {}", o.request.scene, grouped(points), scene.spacing(), printable(o.output)));
+  display.note(fmt::format("{}: {} points, spacing {:.4g}; wrote {}", o.request.scene, grouped(points), scene.spacing(),
+                           printable(o.output)));
   return 0;
 }
 
@@ -110,7 +112,9 @@ void add_synth(CLI::App& app, Session& session) {
   verb->add_option("--points", o->request.points, "About so many points (instead of --spacing)");
   verb->add_option("--spacing", o->spacing, "Point spacing (length)");
   verb->add_option("--noise", o->noise, "Standard deviation of the noise (length); scanned scenes: along the ray");
-  verb->add_option("--sampling", o->request.sampling, "Of surface scenes")->check(CLI::IsMember(synth::list_samplings()))->capture_default_str();
+  verb->add_option("--sampling", o->request.sampling, "Of surface scenes")
+      ->check(CLI::IsMember(synth::list_samplings()))
+      ->capture_default_str();
   verb->add_option("--seed", o->request.seed, "Seed")->capture_default_str();
   verb->add_option("--outliers", o->request.outliers, "Share of stray points, 0 to 1")->capture_default_str();
   verb->add_option("--shift", o->shift, "Added to all coordinates: X Y Z")->expected(3);

@@ -22,7 +22,8 @@ ProgressMode DisplayOptions::mode() const {
 }
 
 void add_display_options(CLI::App& verb, DisplayOptions& options) {
-  verb.add_option("--progress", options.progress, "Progress on stderr: auto (bar on a terminal), always, never, json (one object a line)")
+  verb.add_option("--progress", options.progress,
+                  "Progress on stderr: auto (bar on a terminal), always, never, json (one object a line)")
       ->check(CLI::IsMember({"auto", "always", "never", "json"}))
       ->capture_default_str();
   auto* quiet = verb.add_flag("-q,--quiet", options.quiet, "Errors only");

@@ -48,7 +48,8 @@ std::vector<std::string> expand_config(const std::vector<std::string>& arguments
   const std::vector<std::string> typed = expanded;
   for (const CLI::ConfigItem& item : read_items(*path)) {
     const bool of_verb = item.parents.size() == 1 && !typed.empty() && item.parents[0] == typed[0];
-    if (item.name == "++" || item.name == "--" || !(item.parents.empty() || of_verb) || given(typed, item.name)) continue;
+    if (item.name == "++" || item.name == "--" || !(item.parents.empty() || of_verb) || given(typed, item.name))
+      continue;
     if (item.inputs.size() == 1 && item.inputs[0] == "true") {
       expanded.push_back("--" + item.name);
     } else if (item.inputs.size() != 1 || item.inputs[0] != "false") {

@@ -15,28 +15,59 @@ void add_liu_options(CLI::App& verb, JobOptions& o) {
   verb.add_option("--k-min", o.liu.k_min, "Fewest neighbours tried (eq. 6)")->group(group)->capture_default_str();
   verb.add_option("--k-max", o.liu.k_max, "Most neighbours tried (eq. 6)")->group(group)->capture_default_str();
   verb.add_option("--k-step", o.liu.k_step, "Step between them")->group(group)->capture_default_str();
-  verb.add_flag("--neighbours-only", o.neighbours_only, "Covariance over the neighbours without the point itself (eq. 1, literal)")->group(group);
-  verb.add_option("--min-planarity", o.liu.min_planarity, "Reject a k whose second eigenvalue is below this share of the first")->group(group)->capture_default_str();
-  verb.add_option("--spacing", o.spacing, "One point spacing for all points (length); estimated per point if not given")->group(group);
-  verb.add_option("--max-radius", o.max_radius, "Neighbours beyond are not neighbours (length); chosen from the scan if not given")->group(group);
+  verb.add_flag("--neighbours-only", o.neighbours_only,
+                "Covariance over the neighbours without the point itself (eq. 1, literal)")
+      ->group(group);
+  verb.add_option("--min-planarity", o.liu.min_planarity,
+                  "Reject a k whose second eigenvalue is below this share of the first")
+      ->group(group)
+      ->capture_default_str();
+  verb.add_option("--spacing", o.spacing, "One point spacing for all points (length); estimated per point if not given")
+      ->group(group);
+  verb.add_option("--max-radius", o.max_radius,
+                  "Neighbours beyond are not neighbours (length); chosen from the scan if not given")
+      ->group(group);
   group = "Method liu: boundary";
-  verb.add_option("--alpha", o.liu.gap_deg, "Azimuth gap that makes a boundary, degrees (eq. 10)")->group(group)->capture_default_str();
-  verb.add_option("--far-factor", o.liu.far_factor, "Second layer: neighbours farther than this many spacings are ignored (eq. 11)")->group(group)->capture_default_str();
+  verb.add_option("--alpha", o.liu.gap_deg, "Azimuth gap that makes a boundary, degrees (eq. 10)")
+      ->group(group)
+      ->capture_default_str();
+  verb.add_option("--far-factor", o.liu.far_factor,
+                  "Second layer: neighbours farther than this many spacings are ignored (eq. 11)")
+      ->group(group)
+      ->capture_default_str();
   verb.add_option("--far-distance", o.far_distance, "The same as a length (d_thr)")->group(group);
-  verb.add_option("--span", o.span, "Reading of the span in eq. 11")->check(CLI::IsMember({"bracket", "inner"}))->group(group)->capture_default_str();
+  verb.add_option("--span", o.span, "Reading of the span in eq. 11")
+      ->check(CLI::IsMember({"bracket", "inner"}))
+      ->group(group)
+      ->capture_default_str();
   verb.add_flag("--literal", o.literal, "The paper to the letter: --alpha 90 and --neighbours-only")->group(group);
   verb.add_flag("--no-boundary", o.no_boundary, "Skip the boundary tests")->group(group);
   group = "Method liu: fold";
-  verb.add_option("--radius-factor", o.liu.radius_factor, "Ball radius in local spacings (eq. 12)")->group(group)->capture_default_str();
+  verb.add_option("--radius-factor", o.liu.radius_factor, "Ball radius in local spacings (eq. 12)")
+      ->group(group)
+      ->capture_default_str();
   verb.add_option("--radius", o.radius, "Ball radius as a length, the same everywhere")->group(group);
-  verb.add_option("--cf1-factor", o.liu.cf1_factor, "Threshold of the distances' deviation in local spacings (eq. 21, 23)")->group(group)->capture_default_str();
+  verb.add_option("--cf1-factor", o.liu.cf1_factor,
+                  "Threshold of the distances' deviation in local spacings (eq. 21, 23)")
+      ->group(group)
+      ->capture_default_str();
   verb.add_option("--cf1", o.cf1, "The same as a length, the same everywhere")->group(group);
-  verb.add_option("--fold-angle", o.liu.fold_angle_deg, "Sets --cf1 so that folds up to this interior angle pass, degrees")->group(group);
-  verb.add_option("--noise", o.noise, "Standard deviation of the scanner's noise (length), for --fold-angle")->group(group);
-  verb.add_option("--cf2", o.liu.cf2, "Threshold of the ratio of points on both sides (eq. 22, 23)")->group(group)->capture_default_str();
+  verb.add_option("--fold-angle", o.liu.fold_angle_deg,
+                  "Sets --cf1 so that folds up to this interior angle pass, degrees")
+      ->group(group);
+  verb.add_option("--noise", o.noise, "Standard deviation of the scanner's noise (length), for --fold-angle")
+      ->group(group);
+  verb.add_option("--cf2", o.liu.cf2, "Threshold of the ratio of points on both sides (eq. 22, 23)")
+      ->group(group)
+      ->capture_default_str();
   verb.add_option("--top-m", o.liu.top_m, "Points that a ball emits (eq. 24)")->group(group)->capture_default_str();
-  verb.add_option("--emit", o.emit, "emit: every ball emits its top m; self: only its centre if among them")->check(CLI::IsMember({"emit", "self"}))->group(group)->capture_default_str();
-  verb.add_option("--min-votes", o.liu.min_votes, "Fold points emitted by fewer balls are dropped")->group(group)->capture_default_str();
+  verb.add_option("--emit", o.emit, "emit: every ball emits its top m; self: only its centre if among them")
+      ->check(CLI::IsMember({"emit", "self"}))
+      ->group(group)
+      ->capture_default_str();
+  verb.add_option("--min-votes", o.liu.min_votes, "Fold points emitted by fewer balls are dropped")
+      ->group(group)
+      ->capture_default_str();
   verb.add_flag("--no-fold", o.no_fold, "Skip the fold tests")->group(group);
 }
 
@@ -50,20 +81,25 @@ std::uint64_t parse_tile_points(const std::string& text) {
   return points;
 }
 
-double length_or(const std::string& text, double otherwise) { return text.empty() ? otherwise : parse_length(text); }
+double length_or(const std::string& text, double otherwise) {
+  return text.empty() ? otherwise : parse_length(text);
+}
 
 }  // namespace
 
 void add_job_options(CLI::App& verb, JobOptions& o) {
   verb.add_option("inputs", o.inputs, "LAS and PLY files, or folders of them; one input, in this order")->required();
   verb.add_option("--method", o.method, "Method")->check(CLI::IsMember({"liu"}))->capture_default_str();
-  verb.add_option("--memory", o.memory, "Bound on the memory of the whole process: 8GiB, 512MiB, 60% (default 75% of what there is)");
+  verb.add_option("--memory", o.memory,
+                  "Bound on the memory of the whole process: 8GiB, 512MiB, 60% (default 75% of what there is)");
   verb.add_option("--threads", o.threads, "Threads; 0 for all")->capture_default_str();
   verb.add_option("--temp-dir", o.temp_dir, "Folder for temporary files (default $TMPDIR or /tmp)");
   verb.add_option("--max-temp", o.max_temp, "Bound on temporary files: 100GiB, 50% of what is free");
-  verb.add_option("--tile-points", o.tile_points, "For tests and tuning: most points per tile, or none")->capture_default_str();
+  verb.add_option("--tile-points", o.tile_points, "For tests and tuning: most points per tile, or none")
+      ->capture_default_str();
   verb.add_option("--lattice", o.lattice, "Step of the analysis lattice (length; default: the LAS scale, else 0.0001)");
-  verb.add_option("--config", "Read options from a TOML or INI file; those on the command line win");  // See config_file.h.
+  verb.add_option("--config",
+                  "Read options from a TOML or INI file; those on the command line win");  // See config_file.h.
   add_liu_options(verb, o);
   add_display_options(verb, o.display);
 }

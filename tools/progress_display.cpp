@@ -26,10 +26,13 @@ void print_line(const nlohmann::ordered_json& json) {
 
 ProgressDisplay::ProgressDisplay(ProgressMode mode, int verbosity)
     : json_(mode == ProgressMode::kJson),
-      bar_(mode == ProgressMode::kAlways || (mode == ProgressMode::kAuto && verbosity >= 0 && isatty(STDERR_FILENO) != 0)),
+      bar_(mode == ProgressMode::kAlways ||
+           (mode == ProgressMode::kAuto && verbosity >= 0 && isatty(STDERR_FILENO) != 0)),
       verbosity_(verbosity) {}
 
-ProgressDisplay::~ProgressDisplay() { finish(); }
+ProgressDisplay::~ProgressDisplay() {
+  finish();
+}
 
 void ProgressDisplay::phase(std::string_view name, std::uint64_t total_points) {
   const std::lock_guard lock(mutex_);
@@ -55,15 +58,20 @@ void ProgressDisplay::draw(bool last) {
   const double share = total_ > 0 ? std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_)) : 0.0;
   const double eta = rate > 0.0 && total_ > done_ ? static_cast<double>(total_ - done_) / rate : 0.0;
   if (json_) {
-    print_line({{"event", "progress"}, {"phase", phase_}, {"done", done_}, {"points", total_}, {"points_per_second", rate}, {"eta_seconds", eta}});
+    print_line({{"event", "progress"},
+                {"phase", phase_},
+                {"done", done_},
+                {"points", total_},
+                {"points_per_second", rate},
+                {"eta_seconds", eta}});
     return;
   }
   constexpr int kBarWidth = 28;
   const int filled = static_cast<int>(share * kBarWidth);
   std::string bar(static_cast<std::size_t>(filled), '#');
   bar.append(static_cast<std::size_t>(kBarWidth - filled), '.');
-  std::fputs(fmt::format("\r{:<10} [{}] {:3.0f} %  {:6.2f} M points/s  {} {}\033[K", phase_, bar, 100.0 * share, rate / 1e6,
-                         last ? "took" : "ETA", clock_text(last ? seconds : eta))
+  std::fputs(fmt::format("\r{:<10} [{}] {:3.0f} %  {:6.2f} M points/s  {} {}\033[K", phase_, bar, 100.0 * share,
+                         rate / 1e6, last ? "took" : "ETA", clock_text(last ? seconds : eta))
                  .c_str(),
              stderr);
   line_open_ = true;

@@ -12,8 +12,8 @@ namespace arris::tools {
 
 enum class ProgressMode { kAuto, kAlways, kNever, kJson };
 
-/// Thread-safe. Redraws at most ten times a second. kAuto shows a bar only if stderr is a terminal; notes and warnings are
-/// printed in every mode but quiet.
+/// Thread-safe. Redraws at most ten times a second. kAuto shows a bar only if stderr is a terminal; notes and warnings
+/// are printed in every mode but quiet.
 class ProgressDisplay : public ProgressSink {
  public:
   ProgressDisplay(ProgressMode mode, int verbosity);

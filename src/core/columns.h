@@ -16,7 +16,7 @@ constexpr std::size_t size_bytes(ColumnType type) {
 }
 
 struct ColumnSpec {
-  std::string name;         ///< At most 32 bytes (LAS), no spaces (PLY): "EdgeClass".
+  std::string name;  ///< At most 32 bytes (LAS), no spaces (PLY): "EdgeClass".
   ColumnType type;
   std::string description;  ///< At most 32 bytes.
 };

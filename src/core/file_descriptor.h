@@ -8,8 +8,8 @@
 
 namespace arris {
 
-/// Owns a descriptor. Every failing system call becomes an IoError that names the path and the reason; interrupted and short
-/// calls are continued. Not thread-safe, except that different objects are independent.
+/// Owns a descriptor. Every failing system call becomes an IoError that names the path and the reason; interrupted and
+/// short calls are continued. Not thread-safe, except that different objects are independent.
 class FileDescriptor {
  public:
   /// @param flags  as open(2); O_CLOEXEC is added, new files get mode 0600.

@@ -1,9 +1,9 @@
 #pragma once
 /// @file The integer lattice: the one coordinate system in which everything is analysed.
 ///
-/// All analysis happens on int32 steps of one global lattice. Differences of lattice coordinates are exact, so no result
-/// can depend on the origin of a tile. Tiles, voxels and cells sit on multiples counted from the lattice origin, never on
-/// the bounding box of the data. Boxes are half-open, so that every point has exactly one owner.
+/// All analysis happens on int32 steps of one global lattice. Differences of lattice coordinates are exact, so no
+/// result can depend on the origin of a tile. Tiles, voxels and cells sit on multiples counted from the lattice origin,
+/// never on the bounding box of the data. Boxes are half-open, so that every point has exactly one owner.
 
 #include <algorithm>
 #include <array>
@@ -22,12 +22,14 @@ struct LatticePoint {
   std::int32_t operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 };
 
-/// Exact squared distance in steps². Valid for differences below 2^31 per axis / sqrt(3) (no overflow of uint64 in any case).
+/// Exact squared distance in steps². Valid for differences below 2^31 per axis / sqrt(3) (no overflow of uint64 in any
+/// case).
 inline std::uint64_t squared_distance(const LatticePoint& a, const LatticePoint& b) {
   const std::int64_t dx = std::int64_t{a.x} - b.x;
   const std::int64_t dy = std::int64_t{a.y} - b.y;
   const std::int64_t dz = std::int64_t{a.z} - b.z;
-  return static_cast<std::uint64_t>(dx * dx) + static_cast<std::uint64_t>(dy * dy) + static_cast<std::uint64_t>(dz * dz);
+  return static_cast<std::uint64_t>(dx * dx) + static_cast<std::uint64_t>(dy * dy) +
+         static_cast<std::uint64_t>(dz * dz);
 }
 
 /// A half-open box [min, max) in lattice steps; int64 because max may be 2^31. Empty when any side is not positive.
@@ -53,13 +55,14 @@ struct LatticeBox {
     }
     return box;
   }
-  /// The same box, but unlimited on the sides on which it reaches the border of `bounds`: what lies beyond is known to be empty.
+  /// The same box, but unlimited on the sides on which it reaches the border of `bounds`: what lies beyond is known to
+  /// be empty.
   LatticeBox unlimited_beyond(const LatticeBox& bounds) const;
   /// Grows the box so that it contains p (an empty default box becomes the one point).
   void include(const LatticePoint& p);
   void include(const LatticeBox& box);
-  /// Distance in steps from an inside point to the nearest lattice position *outside* the box. A ball around p whose radius
-  /// is smaller than this has no unseen lattice position; 0 if p is outside.
+  /// Distance in steps from an inside point to the nearest lattice position *outside* the box. A ball around p whose
+  /// radius is smaller than this has no unseen lattice position; 0 if p is outside.
   std::int64_t depth(const LatticePoint& p) const;
 };
 

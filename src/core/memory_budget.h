@@ -16,8 +16,8 @@ MachineMemory machine_memory();
 
 /// A counter of bytes that blocks until a reservation fits. Thread-safe.
 ///
-/// Laws: (1) the sum of live reservations never exceeds capacity_bytes(); (2) a reservation is taken whole or not at all, and a
-/// thread holds at most one while it waits for none, so waiting always ends.
+/// Laws: (1) the sum of live reservations never exceeds capacity_bytes(); (2) a reservation is taken whole or not at
+/// all, and a thread holds at most one while it waits for none, so waiting always ends.
 class MemoryBudget {
  public:
   explicit MemoryBudget(std::uint64_t capacity_bytes) : capacity_bytes_(capacity_bytes) {}

@@ -25,21 +25,22 @@ struct ThreadLimit::Impl {
 ThreadLimit::ThreadLimit(int threads) : impl_(std::make_unique<Impl>(threads)) {}
 ThreadLimit::~ThreadLimit() = default;
 
-int hardware_threads() { return std::max(1, tbb::info::default_concurrency()); }
+int hardware_threads() {
+  return std::max(1, tbb::info::default_concurrency());
+}
 
 void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body) {
   grain = std::max<std::size_t>(grain, 1);
   const std::size_t chunks = count / grain + (count % grain != 0);
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
-      body(chunk * grain, std::min(count, (chunk + 1) * grain));
-    });
+    tbb::parallel_for(std::size_t{0}, chunks,
+                      [&](std::size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); });
   });
 }
 
-// Plain threads feed from one queue: a task blocks on the memory budget, and a blocked TBB worker could hold up a loop that
-// another tile waits for. The loops inside the tasks are TBB's, so the processors stay shared fairly.
+// Plain threads feed from one queue: a task blocks on the memory budget, and a blocked TBB worker could hold up a loop
+// that another tile waits for. The loops inside the tasks are TBB's, so the processors stay shared fairly.
 struct BackgroundTasks::Impl {
   std::mutex mutex;
   std::condition_variable changed;

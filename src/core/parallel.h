@@ -1,5 +1,6 @@
 #pragma once
-/// @file The one place that includes TBB. Nothing here influences results: work items are independent, outputs are indexed.
+/// @file The one place that includes TBB. Nothing here influences results: work items are independent, outputs are
+/// indexed.
 
 #include <cstddef>
 #include <functional>
@@ -7,7 +8,8 @@
 
 namespace arris {
 
-/// Caps the threads of everything run inside it, nested loops and OpenVDB's own included. At most one per process is alive.
+/// Caps the threads of everything run inside it, nested loops and OpenVDB's own included. At most one per process is
+/// alive.
 class ThreadLimit {
  public:
   /// @param threads  >= 1.
@@ -24,20 +26,22 @@ class ThreadLimit {
 /// Threads the machine offers.
 int hardware_threads();
 
-/// Calls body(begin, end) over disjoint ranges that cover [0, count), each at most `grain` long (grain >= 1), in parallel.
-/// The ranges are always [i*grain, min((i+1)*grain, count)): their cut does not depend on the number of threads. Isolated: a
-/// thread that waits for its loop takes no task from outside of the loop. The first exception thrown by a body is rethrown.
+/// Calls body(begin, end) over disjoint ranges that cover [0, count), each at most `grain` long (grain >= 1), in
+/// parallel. The ranges are always [i*grain, min((i+1)*grain, count)): their cut does not depend on the number of
+/// threads. Isolated: a thread that waits for its loop takes no task from outside of the loop. The first exception
+/// thrown by a body is rethrown.
 void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body);
 
 /// Runs independent tasks in the background while the caller goes on. wait() joins and rethrows the first exception.
 ///
-/// Tasks run on at most `threads` threads at a time (the caller's thread does not count until it waits). A task may block
-/// on a MemoryBudget and may use parallel_for_chunks; it never runs inside another task.
+/// Tasks run on at most `threads` threads at a time (the caller's thread does not count until it waits). A task may
+/// block on a MemoryBudget and may use parallel_for_chunks; it never runs inside another task.
 class BackgroundTasks {
  public:
   explicit BackgroundTasks(int threads);
-  ~BackgroundTasks();  ///< Drops tasks not begun, waits for the others, swallows their exceptions: call wait() to see them.
+  ~BackgroundTasks();  ///< Drops tasks not begun, waits for the others, swallows their exceptions: call wait() to see
+                       ///< them.
   BackgroundTasks(const BackgroundTasks&) = delete;
   BackgroundTasks& operator=(const BackgroundTasks&) = delete;
 

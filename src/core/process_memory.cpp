@@ -18,8 +18,12 @@ std::uint64_t status_bytes(const std::string& key) {
 
 }  // namespace
 
-std::uint64_t peak_resident_bytes() { return status_bytes("VmHWM:"); }
-std::uint64_t resident_bytes() { return status_bytes("VmRSS:"); }
+std::uint64_t peak_resident_bytes() {
+  return status_bytes("VmHWM:");
+}
+std::uint64_t resident_bytes() {
+  return status_bytes("VmRSS:");
+}
 
 void configure_allocator_for_budget() {
   // A fixed threshold switches off glibc's habit of raising it after the first large free, which would keep tile-sized
@@ -29,6 +33,8 @@ void configure_allocator_for_budget() {
   mallopt(M_ARENA_MAX, 4);
 }
 
-void release_free_memory() { malloc_trim(0); }
+void release_free_memory() {
+  malloc_trim(0);
+}
 
 }  // namespace arris

@@ -30,7 +30,7 @@ struct LiuParameters {
   enum class Emit : std::uint8_t { kEmit, kSelf } emit = Emit::kEmit;  ///< Reading A (union of all balls' top m) or B.
   int min_votes = 1;                    ///< Fold points with fewer votes are dropped at the merge.
   // Scale.
-  double spacing = 0.0;                 ///< > 0: one spacing for all points; 0: estimated per point.
+  double spacing = 0.0;                 ///< > 0: one spacing for all points and all factors; 0: estimated per point.
   double max_radius = 0.0;              ///< R_max > 0: neighbours beyond it are not neighbours. Resolved before any tile is run.
 
   bool boundary = true;                 ///< Run the boundary tests.

@@ -5,7 +5,6 @@
 
 #if ARRIS_X86_KERNELS
 #if !defined(__clang__)
-#pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // GCC 12 warns of its own header.
 #endif
 #include <immintrin.h>

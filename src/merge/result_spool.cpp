@@ -86,14 +86,16 @@ void ResultSpool::load(std::size_t bucket, std::vector<PointResult>& results) {
       if (r.id < first_id || r.id - first_id >= results.size()) continue;  // Damage: the checksum below will not match.
       PointResult& to = results[r.id - first_id];
       ContourRecord combined{r.id, to.classes, to.votes, to.gap_deg, to.fold_strength, to.fold_angle_deg};
-      combine(combined, {r.id, static_cast<std::uint8_t>(r.classes), r.votes, r.gap_deg, r.fold_strength, r.fold_angle_deg});
+      combine(combined,
+              {r.id, static_cast<std::uint8_t>(r.classes), r.votes, r.gap_deg, r.fold_strength, r.fold_angle_deg});
       to = {combined.gap_deg, combined.fold_strength, combined.fold_angle_deg, combined.votes, combined.classes};
     }
     if (bytes < block.size() * sizeof(DiskRecord)) break;
   }
   if (records != expected.records || sum != expected.checksum) {
-    throw IoError(fmt::format("{}: temporary results were damaged on disk ({} records, {} expected); run again, and check the disk",
-                              path.string(), records, expected.records));
+    throw IoError(fmt::format(
+        "{}: temporary results were damaged on disk ({} records, {} expected); run again, and check the disk",
+        path.string(), records, expected.records));
   }
   std::filesystem::remove(path);
 }

@@ -20,9 +20,9 @@ struct PointResult {
   std::uint8_t classes = 0;
 };
 
-/// Records are appended to one file per range of ids (a bucket). A bucket is read back as a dense array into which its records are
-/// combined; combining is commutative, so nothing depends on the order in which tiles finish. Memory: one bucket at a time,
-/// kBucketPoints * sizeof(PointResult) = 20 MiB. Temporary disk: 32 bytes per record.
+/// Records are appended to one file per range of ids (a bucket). A bucket is read back as a dense array into which its
+/// records are combined; combining is commutative, so nothing depends on the order in which tiles finish. Memory: one
+/// bucket at a time, kBucketPoints * sizeof(PointResult) = 20 MiB. Temporary disk: 32 bytes per record.
 class ResultSpool {
  public:
   static constexpr std::uint64_t kBucketPoints = 1U << 20;
@@ -34,8 +34,8 @@ class ResultSpool {
   void append(std::vector<ContourRecord> records);
 
   std::size_t buckets() const { return buckets_.size(); }
-  /// Combines a bucket into `results`, indexed by id - bucket * kBucketPoints, and removes its file. Call once per bucket, after
-  /// the last append. Throws IoError if the file is not what was written.
+  /// Combines a bucket into `results`, indexed by id - bucket * kBucketPoints, and removes its file. Call once per
+  /// bucket, after the last append. Throws IoError if the file is not what was written.
   void load(std::size_t bucket, std::vector<PointResult>& results);
 
   std::uint64_t bytes_on_disk() const { return bytes_on_disk_; }

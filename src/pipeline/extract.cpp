@@ -58,7 +58,9 @@ class RecordingSink : public ProgressSink {
 double process_cpu_seconds() {
   struct rusage usage {};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -85,11 +87,13 @@ void refuse_bad_outputs(const ExtractRequest& request, const std::vector<std::fi
 
 void warn_of_dropped(const ExtractReport& report, ProgressSink& progress) {
   if (report.dropped_nonfinite > 0) {
-    progress.warning("non-finite", std::to_string(report.dropped_nonfinite) + " points have NaN or infinite coordinates and take no part");
+    progress.warning("non-finite", std::to_string(report.dropped_nonfinite) +
+                                       " points have NaN or infinite coordinates and take no part");
   }
   if (report.dropped_out_of_range > 0) {
-    progress.warning("out-of-range", std::to_string(report.dropped_out_of_range) +
-                                         " points lie outside of what the lattice can hold and take no part; see --lattice");
+    progress.warning("out-of-range",
+                     std::to_string(report.dropped_out_of_range) +
+                         " points lie outside of what the lattice can hold and take no part; see --lattice");
   }
 }
 

@@ -24,13 +24,13 @@ struct ExtractRequest {
   std::uint64_t tile_points_cap = 0;           ///< For tests and tuning; 0: chosen.
   double lattice_step = 0.0;                   ///< 0: chosen (tiling/survey.h).
   bool overwrite = false;
-  bool keep_all = false;                       ///< Write every point, not only contour points.
-  bool hash_inputs = false;                    ///< Put content hashes into the report (reads the inputs once more).
+  bool keep_all = false;     ///< Write every point, not only contour points.
+  bool hash_inputs = false;  ///< Put content hashes into the report (reads the inputs once more).
 };
 
-/// Runs the job: survey, plan, partition, tiles, widening, gather and write (docs/architecture.md). The bytes of the outputs
-/// depend on the input points and the parameters only. Outputs appear whole or not at all; temporary files are gone when
-/// this returns or throws. Throws the errors of core/error.h.
+/// Runs the job: survey, plan, partition, tiles, widening, gather and write (docs/architecture.md). The bytes of the
+/// outputs depend on the input points and the parameters only. Outputs appear whole or not at all; temporary files are
+/// gone when this returns or throws. Throws the errors of core/error.h.
 ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, const CancelToken& cancel);
 
 /// Everything up to the plan: reads the inputs, writes nothing.

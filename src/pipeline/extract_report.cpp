@@ -57,7 +57,8 @@ Json to_json(const ExtractReport& r) {
                     {"out", r.points_out},
                     {"not_contour", r.not_contour},
                     {"dropped", {{"non_finite", r.dropped_nonfinite}, {"out_of_range", r.dropped_out_of_range}}}};
-  json["edges"] = {{"boundary", r.boundary}, {"weak_boundary", r.weak_boundary}, {"fold", r.fold}, {"isolated_points", r.isolated}};
+  json["edges"] = {
+      {"boundary", r.boundary}, {"weak_boundary", r.weak_boundary}, {"fold", r.fold}, {"isolated_points", r.isolated}};
   json["tiles"] = {{"count", r.tiles},
                    {"largest_points", r.largest_tile_points},
                    {"points_limit", r.tile_points_limit},

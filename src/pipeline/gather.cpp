@@ -45,7 +45,8 @@ void gather_points(io::InputSet& inputs, const ExtractRequest& request, const Li
       const std::uint64_t id = batch.first_id + i;
       const std::size_t wanted = static_cast<std::size_t>(id / merge::ResultSpool::kBucketPoints);
       if (wanted != bucket_index) {
-        if (wanted >= results.buckets()) throw InputError("the inputs grew while they were read; run again when they are complete");
+        if (wanted >= results.buckets())
+          throw InputError("the inputs grew while they were read; run again when they are complete");
         results.load(wanted, bucket);
         bucket_index = wanted;
       }

@@ -16,7 +16,8 @@ namespace arris::pipeline {
 /// EdgeClass, EdgeScore, FoldAngle.
 std::vector<ColumnSpec> contour_columns();
 
-/// Streams inputs and results side by side in the order of ids and appends to every writer; counts into `report`. Does not commit.
+/// Streams inputs and results side by side in the order of ids and appends to every writer; counts into `report`. Does
+/// not commit.
 void gather_points(io::InputSet& inputs, const ExtractRequest& request, const LiuParameters& liu,
                    merge::ResultSpool& results, std::vector<std::unique_ptr<io::KeptPointWriter>>& writers,
                    ExtractReport& report, ProgressSink& progress, const CancelToken& cancel);

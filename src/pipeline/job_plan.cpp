@@ -34,19 +34,22 @@ void check_temp_space(const JobPlan& plan, const ExtractRequest& request, Progre
   const std::uint64_t limit =
       request.max_temp_bytes > 0 ? std::min(request.max_temp_bytes, space.free_bytes) : space.free_bytes;
   if (plan.predicted_temp_bytes > limit) {
-    throw BudgetError(fmt::format("temporary files need about {} but {} allows {}; free space, raise --max-temp or choose another --temp-dir",
-                                  human_bytes(plan.predicted_temp_bytes), request.temp_dir.string(), human_bytes(limit)));
+    throw BudgetError(fmt::format(
+        "temporary files need about {} but {} allows {}; free space, raise --max-temp or choose another --temp-dir",
+        human_bytes(plan.predicted_temp_bytes), request.temp_dir.string(), human_bytes(limit)));
   }
   if (space.in_memory) {
-    progress.warning("temp-in-memory", fmt::format("{} is a file system in memory: temporary files count as memory; choose "
-                                                   "another --temp-dir",
-                                                   request.temp_dir.string()));
+    progress.warning("temp-in-memory",
+                     fmt::format("{} is a file system in memory: temporary files count as memory; choose "
+                                 "another --temp-dir",
+                                 request.temp_dir.string()));
   }
 }
 
 }  // namespace
 
-JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSink& progress, const CancelToken& cancel) {
+JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSink& progress,
+                 const CancelToken& cancel) {
   JobPlan plan;
   plan.memory = plan_memory({request.memory_bytes, request.threads});
   plan.survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
@@ -64,22 +67,26 @@ JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSi
   // Few tiles leave threads idle: then one tile at a time uses all of them inside.
   if (plan.tiles.tiles.size() < 4 * static_cast<std::size_t>(plan.memory.tile_workers)) plan.memory.tile_workers = 1;
   const std::uint64_t largest = tile_bytes(plan.tiles.largest_covered_points);
-  while (plan.memory.tile_workers > 1 && largest * plan.memory.tile_workers > plan.memory.tiles_bytes) --plan.memory.tile_workers;
+  while (plan.memory.tile_workers > 1 && largest * plan.memory.tile_workers > plan.memory.tiles_bytes)
+    --plan.memory.tile_workers;
   if (largest > plan.memory.tiles_bytes) {
-    throw BudgetError(fmt::format("the densest tile that cannot be split holds {} points and needs {}; run with at least --memory {}",
-                                  grouped(plan.tiles.largest_covered_points), human_bytes(largest),
-                                  human_bytes(least_budget_bytes(plan.tiles.largest_covered_points, request.threads))));
+    throw BudgetError(
+        fmt::format("the densest tile that cannot be split holds {} points and needs {}; run with at least --memory {}",
+                    grouped(plan.tiles.largest_covered_points), human_bytes(largest),
+                    human_bytes(least_budget_bytes(plan.tiles.largest_covered_points, request.threads))));
   }
   plan.predicted_peak_bytes = plan.memory.fixed_bytes + largest * static_cast<std::uint64_t>(plan.memory.tile_workers);
   const double stored = static_cast<double>(plan.survey.points()) * plan.tiles.duplication;
-  plan.predicted_temp_bytes = static_cast<std::uint64_t>(stored * (kSpoolBytesPerPoint + kTileFileBytesPerPoint) +
-                                                         static_cast<double>(plan.survey.points()) * kResultBytesPerPoint) +
-                              plan.tiles.tiles.size() * 64 * 1024;
+  plan.predicted_temp_bytes =
+      static_cast<std::uint64_t>(stored * (kSpoolBytesPerPoint + kTileFileBytesPerPoint) +
+                                 static_cast<double>(plan.survey.points()) * kResultBytesPerPoint) +
+      plan.tiles.tiles.size() * 64 * 1024;
   check_temp_space(plan, request, progress);
   return plan;
 }
 
-void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const ExtractRequest& request, ExtractReport& report) {
+void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const ExtractRequest& request,
+                   ExtractReport& report) {
   report.parameters = plan.liu;
   report.lattice = plan.survey.lattice;
   report.bounds = plan.survey.bounds;

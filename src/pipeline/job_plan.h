@@ -18,14 +18,16 @@ struct JobPlan {
   std::uint64_t predicted_temp_bytes = 0;
 };
 
-/// R_max, where the user gives none, in units of the survey's spacing. Wide enough for scans whose density falls with the
-/// square of the range: spacing may grow 20-fold from where most points are to where the least are.
+/// R_max, where the user gives none, in units of the survey's spacing. Wide enough for scans whose density falls with
+/// the square of the range: spacing may grow 20-fold from where most points are to where the least are.
 constexpr double kMaxRadiusSpacings = 120.0;
 
 /// Reads the inputs once (twice for floating-point coordinates). Throws BudgetError if memory or disk cannot do.
-JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSink& progress, const CancelToken& cancel);
+JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSink& progress,
+                 const CancelToken& cancel);
 
 /// Copies what a plan decided into a report.
-void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const ExtractRequest& request, ExtractReport& report);
+void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const ExtractRequest& request,
+                   ExtractReport& report);
 
 }  // namespace arris::pipeline

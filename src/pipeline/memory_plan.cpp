@@ -34,7 +34,8 @@ std::uint64_t spool_buffer_bytes(std::uint64_t budget_bytes) {
 }  // namespace
 
 std::uint64_t tile_bytes(std::uint64_t points) {
-  const auto analyse = tiling::load_bytes(points) + static_cast<std::uint64_t>(kLiuBytesPerPoint * static_cast<double>(points));
+  const auto analyse =
+      tiling::load_bytes(points) + static_cast<std::uint64_t>(kLiuBytesPerPoint * static_cast<double>(points));
   return std::max(tiling::build_bytes(points), analyse);
 }
 
@@ -50,12 +51,14 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   plan.fixed_bytes = fixed_bytes(request.threads, plan.spool_buffer_bytes);
   const auto usable = static_cast<std::uint64_t>(kSafety * static_cast<double>(request.budget_bytes));
   if (usable < plan.fixed_bytes + tile_bytes(kLeastTilePoints)) {
-    throw BudgetError(fmt::format("--memory {} is too small: this run needs at least {}", human_bytes(request.budget_bytes),
+    throw BudgetError(fmt::format("--memory {} is too small: this run needs at least {}",
+                                  human_bytes(request.budget_bytes),
                                   human_bytes(least_budget_bytes(kLeastTilePoints, request.threads))));
   }
   plan.tiles_bytes = usable - plan.fixed_bytes;
   plan.tile_workers = request.threads;
-  while (plan.tile_workers > 1 && tile_bytes(kLeastTilePoints) * plan.tile_workers > plan.tiles_bytes) --plan.tile_workers;
+  while (plan.tile_workers > 1 && tile_bytes(kLeastTilePoints) * plan.tile_workers > plan.tiles_bytes)
+    --plan.tile_workers;
 
   const std::uint64_t share = plan.tiles_bytes / plan.tile_workers;
   std::uint64_t low = 1;

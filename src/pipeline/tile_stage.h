@@ -21,8 +21,9 @@ struct TileStageResult {
   std::uint64_t spooled_bytes = 0;
 };
 
-/// Concurrency: the caller's thread routes points and enqueues closed tiles; `tile_workers` threads build, load and analyse them,
-/// each holding a reservation of its predicted bytes. Spools of waiting tiles are on disk, so the queue costs no memory.
+/// Concurrency: the caller's thread routes points and enqueues closed tiles; `tile_workers` threads build, load and
+/// analyse them, each holding a reservation of its predicted bytes. Spools of waiting tiles are on disk, so the queue
+/// costs no memory.
 TileStageResult run_tile_stage(io::InputSet& inputs, const JobPlan& plan, const std::filesystem::path& folder,
                                tiling::TileStore& store, MemoryBudget& budget, merge::ResultSpool& results,
                                ProgressSink& progress, const CancelToken& cancel);

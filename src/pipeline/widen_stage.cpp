@@ -19,9 +19,9 @@
 namespace arris::pipeline {
 namespace {
 
-/// Queries answered together, of as many tiles as it takes: each tile file is then read once for all of them. Bounds the memory of
-/// their regions (27 cells of 64 bytes each at most, usually shared).
-constexpr std::size_t kGroupQueries = 20'000;
+/// Queries answered together, of as many tiles as it takes: each tile file is then read once for all of them. Bounds
+/// the memory of their regions (125 cells of 16 bytes each at most, usually shared: 16 MiB).
+constexpr std::size_t kGroupQueries = 8192;
 
 class Widener {
  public:
@@ -32,7 +32,8 @@ class Widener {
     std::optional<TilePoints> points = collect(queries);
     if (!points) {
       if (queries.size() == 1) {
-        throw BudgetError(fmt::format("point {} needs more neighbours than the memory budget holds; raise --memory", queries[0].id));
+        throw BudgetError(
+            fmt::format("point {} needs more neighbours than the memory budget holds; raise --memory", queries[0].id));
       }
       const std::size_t half = queries.size() / 2;
       answer(queries.first(half));
@@ -48,7 +49,8 @@ class Widener {
     std::vector<std::uint32_t> indices;
     for (const UnprovenQuery& query : queries) indices.push_back(index_of.at(query.id));
     TileContours contours = extract_liu(*points, plan_.survey.lattice, plan_.liu, indices);
-    if (!contours.unproven.empty()) throw IoError("internal: a query stayed unproven on complete support; please report this");
+    if (!contours.unproven.empty())
+      throw IoError("internal: a query stayed unproven on complete support; please report this");
     outcome_.isolated += contours.isolated;
     results_.append(std::move(contours.records));
   }
@@ -62,7 +64,8 @@ class Widener {
     std::vector<std::uint64_t> ids;
     for (std::size_t tile = 0; tile < plan_.tiles.tiles.size(); ++tile) {
       if (!regions.touches(plan_.tiles.tiles[tile].core)) continue;
-      store_.load_core(tile, [&](const LatticePoint& p) { return regions.contains(p); }, positions, ids);
+      store_.load_core(
+          tile, [&](const LatticePoint& p) { return regions.contains(p); }, positions, ids);
       if (positions.size() > plan_.memory.max_tile_points && queries.size() > 1) return std::nullopt;
       if (tile_bytes(positions.size()) > plan_.memory.tiles_bytes) return std::nullopt;
     }

@@ -15,9 +15,9 @@ struct WidenResult {
   std::uint64_t isolated = 0;
 };
 
-/// For groups of unproven queries, in the order of tiles: collects the points of all tiles that lie in reach of any of them, and
-/// asks again. What is collected is bounded by the largest tile the budget allows; groups that need more are halved. Sequential
-/// over groups, parallel inside.
+/// For groups of unproven queries, in the order of tiles: collects the points of all tiles that lie in reach of any of
+/// them, and asks again. What is collected is bounded by the largest tile the budget allows; groups that need more are
+/// halved. Sequential over groups, parallel inside.
 WidenResult run_widen_stage(const JobPlan& plan, const std::vector<std::uint64_t>& unproven,
                             const std::filesystem::path& folder, const tiling::TileStore& store,
                             merge::ResultSpool& results, ProgressSink& progress, const CancelToken& cancel);

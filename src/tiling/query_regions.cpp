@@ -23,26 +23,28 @@ std::uint64_t cell_key(int level, std::int64_t x, std::int64_t y, std::int64_t z
 }  // namespace
 
 void QueryRegions::add(const LatticePoint& position, std::int64_t reach_steps) {
-  const int level = std::min(
-      kLevels - 1,
-      static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(reach_steps, 1) - 1))));
+  // The largest power of two that is at most the reach.
+  const auto reach = static_cast<std::uint64_t>(std::max<std::int64_t>(reach_steps, 1));
+  const int level = std::min(kLevels - 1, static_cast<int>(std::bit_width(reach)) - 1);
   levels_ |= std::uint64_t{1} << level;
+  LatticeBox box;
+  box.include(position);
+  box = box.expanded(reach_steps);
+  boxes_.push_back(box);
   std::array<std::int64_t, 3> low{};
   std::array<std::int64_t, 3> high{};
   for (int axis = 0; axis < 3; ++axis) {
-    low[axis] = (std::int64_t{position[axis]} - reach_steps) >> level;
-    high[axis] = (std::int64_t{position[axis]} + reach_steps) >> level;
+    low[axis] = box.min[axis] >> level;
+    high[axis] = (box.max[axis] - 1) >> level;
+    box.min[axis] = low[axis] * (std::int64_t{1} << level);
+    box.max[axis] = (high[axis] + 1) * (std::int64_t{1} << level);
   }
+  bounds_.include(box);
   for (std::int64_t x = low[0]; x <= high[0]; ++x) {
     for (std::int64_t y = low[1]; y <= high[1]; ++y) {
       for (std::int64_t z = low[2]; z <= high[2]; ++z) {
         const std::uint64_t key = cell_key(level, x, y, z);
-        if (has(key)) continue;
-        insert(key);
-        const std::int64_t size = std::int64_t{1} << level;
-        const LatticeBox cell{{x * size, y * size, z * size}, {(x + 1) * size, (y + 1) * size, (z + 1) * size}};
-        cells_.push_back(cell);
-        bounds_.include(cell);
+        if (!has(key)) insert(key);
       }
     }
   }
@@ -60,7 +62,7 @@ bool QueryRegions::contains(const LatticePoint& p) const {
 
 bool QueryRegions::touches(const LatticeBox& box) const {
   if (!bounds_.intersects(box)) return false;
-  return std::any_of(cells_.begin(), cells_.end(), [&](const LatticeBox& cell) { return cell.intersects(box); });
+  return std::any_of(boxes_.begin(), boxes_.end(), [&](const LatticeBox& query) { return query.intersects(box); });
 }
 
 bool QueryRegions::has(std::uint64_t key) const {

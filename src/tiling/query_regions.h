@@ -15,7 +15,7 @@ class QueryRegions {
   /// @param reach_steps  >= 0.
   void add(const LatticePoint& position, std::int64_t reach_steps);
   bool contains(const LatticePoint& position) const;
-  /// True if some cell may touch `box`.
+  /// True if the box of some query touches `box`.
   bool touches(const LatticeBox& box) const;
   const LatticeBox& bounds() const { return bounds_; }
 
@@ -27,7 +27,7 @@ class QueryRegions {
   static constexpr int kLevels = 33;
   std::uint64_t levels_ = 0;  ///< Bit l: cells of 2^l steps are in use.
   LatticeBox bounds_;
-  std::vector<LatticeBox> cells_;     ///< Every inserted cell, for touches().
+  std::vector<LatticeBox> boxes_;     ///< Of every query.
   std::vector<std::uint64_t> table_;  ///< Open addressing; 0 = empty slot.
   std::size_t used_ = 0;
 };

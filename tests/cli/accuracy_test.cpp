@@ -1,4 +1,5 @@
-/// @file The accuracy that the documentation promises of `extract --method liu` with defaults, on scenes with exact truth.
+/// @file The accuracy that the documentation promises of `extract --method liu` with defaults, on scenes with exact
+/// truth.
 
 #include <gtest/gtest.h>
 
@@ -34,17 +35,27 @@ double f1(const std::vector<std::string>& synth, const std::vector<std::string>&
 }
 
 double block_f1(const char* noise) {
-  return f1({"block", "--spacing", "0.25", "--sampling", "jittered", "--noise", noise, "--seed", "11"}, {"--edges", "folds", "--classes", "fold"});
+  return f1({"block", "--spacing", "0.25", "--sampling", "jittered", "--noise", noise, "--seed", "11"},
+            {"--edges", "folds", "--classes", "fold"});
 }
 
 double plates_f1(const char* noise) {
-  return f1({"plates", "--spacing", "0.25", "--sampling", "grid", "--noise", noise, "--seed", "11"}, {"--edges", "boundaries", "--classes", "boundary"});
+  return f1({"plates", "--spacing", "0.25", "--sampling", "grid", "--noise", noise, "--seed", "11"},
+            {"--edges", "boundaries", "--classes", "boundary"});
 }
 
-TEST(Accuracy, BlockFolds_NoNoise) { EXPECT_GE(block_f1("0"), 0.95); }
-TEST(Accuracy, BlockFolds_NoiseOfAFifthOfTheSpacing) { EXPECT_GE(block_f1("0.05"), 0.88); }
-TEST(Accuracy, PlatesBoundary_NoNoise) { EXPECT_GE(plates_f1("0"), 0.97); }
-TEST(Accuracy, PlatesBoundary_NoiseOfAFifthOfTheSpacing) { EXPECT_GE(plates_f1("0.05"), 0.90); }
+TEST(Accuracy, BlockFolds_NoNoise) {
+  EXPECT_GE(block_f1("0"), 0.95);
+}
+TEST(Accuracy, BlockFolds_NoiseOfAFifthOfTheSpacing) {
+  EXPECT_GE(block_f1("0.05"), 0.88);
+}
+TEST(Accuracy, PlatesBoundary_NoNoise) {
+  EXPECT_GE(plates_f1("0"), 0.97);
+}
+TEST(Accuracy, PlatesBoundary_NoiseOfAFifthOfTheSpacing) {
+  EXPECT_GE(plates_f1("0.05"), 0.90);
+}
 
 }  // namespace
 }  // namespace arris::test

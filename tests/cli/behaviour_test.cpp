@@ -31,10 +31,13 @@ Positions plate(int side) {
 }
 
 std::size_t entries(const std::filesystem::path& folder) {
-  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
+  return static_cast<std::size_t>(
+      std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
 }
 
-long lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+long lines(const std::string& text) {
+  return std::count(text.begin(), text.end(), '\n');
+}
 
 TEST(Behaviour, HelpAndVersion_SucceedOnStdout) {
   for (const char* option : {"--help", "--version"}) {
@@ -111,7 +114,8 @@ TEST(Behaviour, Plate_EdgePointsAreExactlyTheBoundaryAndRecordsAreKept) {
   const TempFolder folder;
   const int side = 40;
   write_las(folder / "in.las", plate(side));
-  const ProcessResult run = run_arris({"extract", folder / "in.las", "-o", folder / "out.las", "--report", folder / "report.json", "--temp-dir", folder.path()});
+  const ProcessResult run = run_arris({"extract", folder / "in.las", "-o", folder / "out.las", "--report",
+                                       folder / "report.json", "--temp-dir", folder.path()});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const LasView in = view_las(folder / "in.las");
   const LasView out = view_las(folder / "out.las");
@@ -129,9 +133,11 @@ TEST(Behaviour, Plate_EdgePointsAreExactlyTheBoundaryAndRecordsAreKept) {
   const auto& points = report["points"];
   EXPECT_EQ(points["in"].get<std::uint64_t>(), in.points);
   EXPECT_EQ(points["out"].get<std::uint64_t>() + points["not_contour"].get<std::uint64_t>() +
-                points["dropped"]["non_finite"].get<std::uint64_t>() + points["dropped"]["out_of_range"].get<std::uint64_t>(),
+                points["dropped"]["non_finite"].get<std::uint64_t>() +
+                points["dropped"]["out_of_range"].get<std::uint64_t>(),
             in.points);
-  EXPECT_LE(report["memory"]["measured_peak_bytes"].get<std::uint64_t>(), report["memory"]["budget_bytes"].get<std::uint64_t>());
+  EXPECT_LE(report["memory"]["measured_peak_bytes"].get<std::uint64_t>(),
+            report["memory"]["budget_bytes"].get<std::uint64_t>());
   EXPECT_EQ(entries(folder.path()), 3U) << "temporary files stayed behind";
 }
 
@@ -152,7 +158,10 @@ TEST(Behaviour, ShiftByUtmCoordinates_ChangesNoLabel) {
   write_las(folder / "near.las", plate(40));
   write_las(folder / "far.las", plate(40), 0.001, {500'000.0, 5'000'000.0, 100.0});
   for (const char* name : {"near", "far"}) {
-    ASSERT_EQ(run_arris({"extract", folder.path() / (std::string(name) + ".las"), "-o", folder.path() / (std::string(name) + "_out.las"), "-q"}).exit_code, 0);
+    ASSERT_EQ(run_arris({"extract", folder.path() / (std::string(name) + ".las"), "-o",
+                         folder.path() / (std::string(name) + "_out.las"), "-q"})
+                  .exit_code,
+              0);
   }
   const LasView near = view_las(folder / "near_out.las");
   const LasView far = view_las(folder / "far_out.las");
@@ -166,7 +175,8 @@ TEST(Behaviour, SeveralOutputsAndAFolderAsInput_Work) {
   const Positions points = plate(30);
   write_las(folder.path() / "scans" / "a.las", Positions(points.begin(), points.begin() + 400));
   write_las(folder.path() / "scans" / "b.LAS", Positions(points.begin() + 400, points.end()));
-  const ProcessResult run = run_arris({"extract", folder / "scans", "-o", folder / "out.las", "-o", folder / "out.ply"});
+  const ProcessResult run =
+      run_arris({"extract", folder / "scans", "-o", folder / "out.las", "-o", folder / "out.ply"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_GT(view_las(folder / "out.las").points, 100U);
   EXPECT_NE(file_bytes(folder / "out.ply").find("property float EdgeScore"), std::string::npos);
@@ -198,13 +208,17 @@ TEST(Behaviour, Info_ShowsCountsAndFindsAWrongBox) {
 
 TEST(Behaviour, Interrupt_ExitsWith130AndLeavesNothing) {
   const TempFolder folder;
-  ASSERT_EQ(run_arris({"synth", "plane", "--points", "1500000", "-o", folder / "in.las", "--truth", folder / "truth.csv", "-q"}).exit_code, 0);
+  ASSERT_EQ(run_arris({"synth", "plane", "--points", "1500000", "-o", folder / "in.las", "--truth",
+                       folder / "truth.csv", "-q"})
+                .exit_code,
+            0);
   std::filesystem::create_directory(folder / "temp");
-  const ProcessResult run = run_arris({"extract", folder / "in.las", "-o", folder / "out.las", "--temp-dir", folder / "temp", "--tile-points", "20000"},
-                                      [](int pid) {
-                                        std::this_thread::sleep_for(std::chrono::milliseconds(700));
-                                        kill(pid, SIGINT);
-                                      });
+  const ProcessResult run = run_arris(
+      {"extract", folder / "in.las", "-o", folder / "out.las", "--temp-dir", folder / "temp", "--tile-points", "20000"},
+      [](int pid) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(700));
+        kill(pid, SIGINT);
+      });
   EXPECT_EQ(run.exit_code, 130) << run.err;
   EXPECT_EQ(entries(folder / "temp"), 0U);
   EXPECT_EQ(entries(folder.path()), 3U) << "in.las, truth.csv and the empty temp";
@@ -229,7 +243,10 @@ TEST(Behaviour, ConfigFile_SetsOptionsAndTheCommandLineWins) {
   const TempFolder folder;
   write_las(folder / "in.las", plate(30));
   write_bytes(folder / "f.toml", "k-min = 25\nalpha = 100\n");
-  ASSERT_EQ(run_arris({"extract", folder / "in.las", "-o", folder / "out.las", "--config", folder / "f.toml", "--alpha", "110", "--report", folder / "r.json"}).exit_code, 0);
+  ASSERT_EQ(run_arris({"extract", folder / "in.las", "-o", folder / "out.las", "--config", folder / "f.toml", "--alpha",
+                       "110", "--report", folder / "r.json"})
+                .exit_code,
+            0);
   const auto report = nlohmann::json::parse(file_bytes(folder / "r.json"));
   EXPECT_EQ(report["parameters"]["k_min"], 25);
   EXPECT_EQ(report["parameters"]["gap_deg"], 110.0);

@@ -54,7 +54,9 @@ TEST(DegenerateInput, CoordinatesAtTheEndsOfInt32_AreRead) {
 
 TEST(DegenerateInput, NanCoordinates_AreCountedAndKeptOut) {
   const TempFolder folder;
-  std::string ply = "ply\nformat ascii 1.0\nelement vertex 903\nproperty double x\nproperty double y\nproperty double z\nend_header\n";
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 903\nproperty double x\nproperty double y\nproperty double "
+      "z\nend_header\n";
   for (int i = 0; i < 900; ++i) ply += std::to_string(i % 30) + " " + std::to_string(i / 30) + " 0\n";
   ply += "nan 1 2\n1 nan 2\n1 2 inf\n";
   write_bytes(folder / "in.ply", ply);

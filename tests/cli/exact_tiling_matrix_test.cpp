@@ -12,13 +12,19 @@ namespace {
 
 TEST(ExactTilingMatrix, SyntheticBlock_SameBytes) {
   const TempFolder folder;
-  ASSERT_EQ(run_arris({"synth", "block", "--points", "200000", "--noise", "0.03", "-o", folder / "scan.las", "--truth", folder / "truth.csv"}).exit_code, 0);
+  ASSERT_EQ(run_arris({"synth", "block", "--points", "200000", "--noise", "0.03", "-o", folder / "scan.las", "--truth",
+                       folder / "truth.csv"})
+                .exit_code,
+            0);
   expect_same_bytes(folder / "scan.las", whole_matrix());
 }
 
 TEST(ExactTilingMatrix, SimulatedTown_SameBytes) {
   const TempFolder folder;
-  ASSERT_EQ(run_arris({"synth", "town", "--points", "1500000", "--noise", "2mm", "-o", folder / "scan.las", "--truth", folder / "truth.csv"}).exit_code, 0);
+  ASSERT_EQ(run_arris({"synth", "town", "--points", "1500000", "--noise", "2mm", "-o", folder / "scan.las", "--truth",
+                       folder / "truth.csv"})
+                .exit_code,
+            0);
   expect_same_bytes(folder / "scan.las", whole_matrix());
 }
 

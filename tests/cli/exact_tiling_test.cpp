@@ -21,13 +21,19 @@ TEST(ExactTiling, PointsOnTileFaces_SameBytes) {
 
 TEST(ExactTiling, SyntheticBlock_SameBytes) {
   const TempFolder folder;
-  ASSERT_EQ(run_arris({"synth", "block", "--spacing", "0.25", "--noise", "0.05", "--seed", "3", "-o", folder / "scan.las", "--truth", folder / "truth.csv"}).exit_code, 0);
+  ASSERT_EQ(run_arris({"synth", "block", "--spacing", "0.25", "--noise", "0.05", "--seed", "3", "-o",
+                       folder / "scan.las", "--truth", folder / "truth.csv"})
+                .exit_code,
+            0);
   expect_same_bytes(folder / "scan.las", small_matrix(), 10);
 }
 
 TEST(ExactTiling, SimulatedTown_SameBytes) {
   const TempFolder folder;
-  ASSERT_EQ(run_arris({"synth", "town", "--points", "150000", "--noise", "2mm", "--seed", "4", "-o", folder / "scan.las", "--truth", folder / "truth.csv"}).exit_code, 0);
+  ASSERT_EQ(run_arris({"synth", "town", "--points", "150000", "--noise", "2mm", "--seed", "4", "-o",
+                       folder / "scan.las", "--truth", folder / "truth.csv"})
+                .exit_code,
+            0);
   expect_same_bytes(folder / "scan.las", small_matrix(), 10);
 }
 
@@ -36,7 +42,8 @@ TEST(ExactTiling, AirborneScan_SameBytes) {
   expect_same_bytes(scan, {{"20000", 2, "256MiB", true}, {"none", 1, "", false}, {"100000", 4, "1GiB", true}}, 2);
 }
 
-// Thin spray beside a dense plate: sparse queries need more than their tile's halo and are answered from the neighbours' files.
+// Thin spray beside a dense plate: sparse queries need more than their tile's halo and are answered from the
+// neighbours' files.
 TEST(ExactTiling, SparsePointsBesideDenseTiles_AreWidenedToTheSameBytes) {
   const TempFolder folder;
   std::vector<std::array<std::int32_t, 3>> points;
@@ -47,8 +54,12 @@ TEST(ExactTiling, SparsePointsBesideDenseTiles_AreWidenedToTheSameBytes) {
   const auto next = [&] { return static_cast<std::int32_t>((random = random * 1664525U + 1013904223U) >> 20); };
   for (int i = 0; i < 600; ++i) points.push_back({next() % 2200, next() % 2200, 40 + next() % 400});
   write_las(folder / "spray.las", points);
-  ASSERT_EQ(run_arris({"extract", folder / "spray.las", "-o", folder / "out.las", "-q", "--tile-points", "3000", "--report", folder / "report.json"}).exit_code, 0);
-  EXPECT_GT(nlohmann::json::parse(file_bytes(folder / "report.json"))["tiles"]["widened_queries"], 0) << "the test exercises nothing";
+  ASSERT_EQ(run_arris({"extract", folder / "spray.las", "-o", folder / "out.las", "-q", "--tile-points", "3000",
+                       "--report", folder / "report.json"})
+                .exit_code,
+            0);
+  EXPECT_GT(nlohmann::json::parse(file_bytes(folder / "report.json"))["tiles"]["widened_queries"], 0)
+      << "the test exercises nothing";
   expect_same_bytes(folder / "spray.las", small_matrix(), 10);
 }
 

@@ -25,7 +25,7 @@ std::vector<TilingCase> whole_matrix() {
 }
 
 std::vector<TilingCase> small_matrix() {
-  return {{"none", 1, "", false},       {"20000", 2, "256MiB", true}, {"20000", 4, "1GiB", false},
+  return {{"none", 1, "", false},        {"20000", 2, "256MiB", true}, {"20000", 4, "1GiB", false},
           {"100000", 1, "256MiB", true}, {"100000", 2, "", false},     {"1000000", 4, "1GiB", true}};
 }
 
@@ -35,7 +35,8 @@ void expect_same_bytes(const std::filesystem::path& scan, const std::vector<Tili
   std::string expected;
   for (const TilingCase& c : cases) {
     const std::string out = folder / "out.las";
-    const std::string cap = c.tile_points == "none" ? c.tile_points : std::to_string(std::stoi(c.tile_points) / caps_divisor);
+    const std::string cap =
+        c.tile_points == "none" ? c.tile_points : std::to_string(std::stoi(c.tile_points) / caps_divisor);
     std::vector<std::string> arguments{"extract", "--tile-points", cap, "--threads", std::to_string(c.threads)};
     if (!c.memory.empty()) arguments.insert(arguments.end(), {"--memory", c.memory});
     if (c.split) {
@@ -66,7 +67,8 @@ void write_points_on_tile_faces(const std::filesystem::path& path) {
     for (std::int32_t box_y = 0; box_y < 3; ++box_y) {
       const std::int32_t height = 256 * (1 + (box_x + box_y) % 3);
       for (std::int32_t u = 0; u <= 512; u += 16) {
-        for (std::int32_t v = 0; v <= 512; v += 16) points.insert({box_x * 1024 - 1536 + u, box_y * 1024 - 1536 + v, height});
+        for (std::int32_t v = 0; v <= 512; v += 16)
+          points.insert({box_x * 1024 - 1536 + u, box_y * 1024 - 1536 + v, height});
         for (std::int32_t w = 0; w <= height; w += 16) {
           for (const std::int32_t side : {0, 512}) {
             points.insert({box_x * 1024 - 1536 + u, box_y * 1024 - 1536 + side, w});

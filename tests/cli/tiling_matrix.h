@@ -10,17 +10,18 @@ namespace arris::test {
 struct TilingCase {
   std::string tile_points;  ///< A number or "none".
   int threads;
-  std::string memory;       ///< Empty: the default.
-  bool split;               ///< Input as five files instead of one.
+  std::string memory;  ///< Empty: the default.
+  bool split;          ///< Input as five files instead of one.
 };
 
-/// Every combination of caps {20 000, 100 000, 1 000 000, none}, threads {1, 2, 4}, budgets {256 MiB, 1 GiB, default}, splits.
+/// Every combination of caps {20 000, 100 000, 1 000 000, none}, threads {1, 2, 4}, budgets {256 MiB, 1 GiB, default},
+/// splits.
 std::vector<TilingCase> whole_matrix();
 /// Each value of each dimension at least twice.
 std::vector<TilingCase> small_matrix();
 
-/// Runs extract for every case and expects one and the same output, with contour points in it. `caps_divisor` makes tiles smaller
-/// for small clouds.
+/// Runs extract for every case and expects one and the same output, with contour points in it. `caps_divisor` makes
+/// tiles smaller for small clouds.
 void expect_same_bytes(const std::filesystem::path& scan, const std::vector<TilingCase>& cases, int caps_divisor = 1);
 
 /// A closed surface of boxes whose faces, edges and corners lie on multiples of 64 lattice steps, where tiles are cut.

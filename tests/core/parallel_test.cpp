@@ -22,9 +22,10 @@ TEST(ParallelForChunks, EveryIndex_IsVisitedOnceInFixedChunks) {
 }
 
 TEST(ParallelForChunks, ThrowingBody_RethrowsInTheCaller) {
-  EXPECT_THROW(parallel_for_chunks(100, 1, [](std::size_t begin, std::size_t) {
-                 if (begin == 57) throw std::runtime_error("57");
-               }),
+  EXPECT_THROW(parallel_for_chunks(100, 1,
+                                   [](std::size_t begin, std::size_t) {
+                                     if (begin == 57) throw std::runtime_error("57");
+                                   }),
                std::runtime_error);
 }
 
@@ -32,9 +33,7 @@ TEST(BackgroundTasks, AllTasks_AreDoneAfterWait) {
   BackgroundTasks tasks(3);
   std::atomic<int> done{0};
   for (int i = 0; i < 100; ++i) {
-    tasks.run([&] {
-      parallel_for_chunks(10, 1, [&](std::size_t, std::size_t) { ++done; });
-    });
+    tasks.run([&] { parallel_for_chunks(10, 1, [&](std::size_t, std::size_t) { ++done; }); });
   }
   tasks.wait();
   EXPECT_EQ(done.load(), 1000);

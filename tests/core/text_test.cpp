@@ -5,9 +5,13 @@
 namespace arris {
 namespace {
 
-TEST(Printable, TerminalEscapesAndNonAscii_BecomeQuestionMarks) { EXPECT_EQ(printable("a\033[31m\n\xff"), "a?[31m??"); }
+TEST(Printable, TerminalEscapesAndNonAscii_BecomeQuestionMarks) {
+  EXPECT_EQ(printable("a\033[31m\n\xff"), "a?[31m??");
+}
 
-TEST(Printable, LongText_IsCut) { EXPECT_EQ(printable("abcdef", 3), "abc..."); }
+TEST(Printable, LongText_IsCut) {
+  EXPECT_EQ(printable("abcdef", 3), "abc...");
+}
 
 TEST(Grouped, Digits_AreInThrees) {
   EXPECT_EQ(grouped(0), "0");

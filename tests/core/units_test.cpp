@@ -31,7 +31,8 @@ TEST(ParseLength, Units_AreConvertedToMetres) {
 }
 
 TEST(ParseLength, NegativeOrUnknownUnit_IsAConfigError) {
-  for (const char* text : {"", "-1", "5 parsec", "nan", "inf", "cm"}) EXPECT_THROW(parse_length(text), ConfigError) << text;
+  for (const char* text : {"", "-1", "5 parsec", "nan", "inf", "cm"})
+    EXPECT_THROW(parse_length(text), ConfigError) << text;
 }
 
 TEST(ParseAngle, PlainNumbers_AreDegrees) {

@@ -39,8 +39,9 @@ RC_GTEST_PROP(ResultSpool, AnySplitAndOrder_GivesTheSameCombination, ()) {
   for (int i = 0; i < count; ++i) {
     const auto bucket = *rc::gen::inRange<std::uint64_t>(0, 3);
     records.push_back(record(bucket * ResultSpool::kBucketPoints + *rc::gen::inRange<std::uint64_t>(0, 10),
-                             *rc::gen::element<std::uint8_t>(kBoundary, kWeakBoundary, kFold), *rc::gen::inRange<std::uint32_t>(0, 4),
-                             static_cast<float>(*rc::gen::inRange(0, 3)), static_cast<float>(*rc::gen::inRange(60, 63))));
+                             *rc::gen::element<std::uint8_t>(kBoundary, kWeakBoundary, kFold),
+                             *rc::gen::inRange<std::uint32_t>(0, 4), static_cast<float>(*rc::gen::inRange(0, 3)),
+                             static_cast<float>(*rc::gen::inRange(60, 63))));
   }
   std::map<std::uint64_t, ContourRecord> expected;
   for (const ContourRecord& r : records) {

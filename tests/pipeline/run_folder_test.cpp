@@ -22,7 +22,9 @@ TEST(RunFolder, LeavesNothingBehind) {
   EXPECT_TRUE(std::filesystem::is_empty(parent.path()));
 }
 
-TEST(RunFolder, MissingParent_IsAnIoError) { EXPECT_THROW(RunFolder("/no/such/folder"), IoError); }
+TEST(RunFolder, MissingParent_IsAnIoError) {
+  EXPECT_THROW(RunFolder("/no/such/folder"), IoError);
+}
 
 TEST(TempSpace, OfTheTempFolder_IsPositive) {
   EXPECT_GT(temp_space(std::filesystem::temp_directory_path()).free_bytes, 0U);

@@ -16,7 +16,9 @@ struct ProcessResult {
   std::uint64_t peak_resident_bytes = 0;  ///< As the operating system counts it.
 };
 
-/// Runs `arris ARGUMENTS` to its end. If `while_running` is given it is called with the process id right after the start.
-ProcessResult run_arris(const std::vector<std::string>& arguments, const std::function<void(int pid)>& while_running = {});
+/// Runs `arris ARGUMENTS` to its end. If `while_running` is given it is called with the process id right after the
+/// start.
+ProcessResult run_arris(const std::vector<std::string>& arguments,
+                        const std::function<void(int pid)>& while_running = {});
 
 }  // namespace arris::test

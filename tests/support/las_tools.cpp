@@ -57,7 +57,8 @@ LasView view_las(const std::filesystem::path& path) {
   return view;
 }
 
-std::vector<std::filesystem::path> split_las(const std::filesystem::path& path, int parts, const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> split_las(const std::filesystem::path& path, int parts,
+                                             const std::filesystem::path& folder) {
   const LasView whole = view_las(path);
   const auto minor = get<std::uint8_t>(whole.bytes, 25);
   std::vector<std::filesystem::path> paths;

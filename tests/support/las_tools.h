@@ -26,11 +26,13 @@ struct LasView {
 };
 LasView view_las(const std::filesystem::path& path);
 
-/// Cuts a LAS file into `parts` files of consecutive points with the same header and VLRs (EVLRs dropped); returns their paths.
-std::vector<std::filesystem::path> split_las(const std::filesystem::path& path, int parts, const std::filesystem::path& folder);
+/// Cuts a LAS file into `parts` files of consecutive points with the same header and VLRs (EVLRs dropped); returns
+/// their paths.
+std::vector<std::filesystem::path> split_las(const std::filesystem::path& path, int parts,
+                                             const std::filesystem::path& folder);
 
 /// Writes LAS 1.2, point format 0, from integers.
-void write_las(const std::filesystem::path& path, const std::vector<std::array<std::int32_t, 3>>& points, double scale = 0.001,
-               std::array<double, 3> offset = {0, 0, 0});
+void write_las(const std::filesystem::path& path, const std::vector<std::array<std::int32_t, 3>>& points,
+               double scale = 0.001, std::array<double, 3> offset = {0, 0, 0});
 
 }  // namespace arris::test

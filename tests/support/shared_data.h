@@ -10,7 +10,7 @@ std::optional<std::filesystem::path> shared_data(const char* relative_path);
 }  // namespace arris::test
 
 /// Declares `variable`, or skips the test.
-#define ARRIS_SHARED_DATA_OR_SKIP(variable, relative)                                     \
-  const auto variable##_or_nothing = arris::test::shared_data(relative);                  \
-  if (!variable##_or_nothing) GTEST_SKIP() << "shared data is not here: " << (relative);  \
+#define ARRIS_SHARED_DATA_OR_SKIP(variable, relative)                                    \
+  const auto variable##_or_nothing = arris::test::shared_data(relative);                 \
+  if (!variable##_or_nothing) GTEST_SKIP() << "shared data is not here: " << (relative); \
   const std::filesystem::path variable = *variable##_or_nothing
