@@ -6,6 +6,7 @@ cd "$(dirname "$0")/.."
 scan=${1:-}
 [ -z "$scan" ] || [ -e "$scan" ] || { echo "demo.sh: $scan does not exist" >&2; exit 1; }
 [ -z "$scan" ] || scan=$(realpath "$scan")
+scripts/install.sh python3-numpy
 scripts/build.sh release -DARRIS_TESTS=OFF
 arris=build/release/bin/arris
 out=demo-output
@@ -26,7 +27,9 @@ if [ -e "$out/truth.csv" ] && [ "$scan" = "$out/scan.las" ]; then
   echo "== Against the truth of the generated scene"
   $arris evaluate "$out/edges.las" --truth "$out/truth.csv"
 fi
-if command -v python3 >/dev/null && python3 -c 'import numpy' 2>/dev/null; then
-  python3 scripts/render.py "$out/edges.las" "$out/edges.png" && echo "Picture: $out/edges.png"
-fi
+case $scan in
+  *.las | *.LAS) under=(--under "$scan") ;;
+  *) under=() ;;
+esac
+/usr/bin/python3 scripts/render.py "$out/edges.las" "$out/edges.png" "${under[@]}" && echo "Picture: $out/edges.png"
 echo "Results in $out/: edges.las (CloudCompare, QGIS), edges.ply (CloudCompare, MeshLab), report.json"

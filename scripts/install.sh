@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of scripts/packages.txt that are missing. Needs root or sudo only if something is missing.
+# Installs the Debian packages of scripts/packages.txt, and those named as arguments, that are missing. Needs root or sudo only
+# if something is missing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -7,7 +8,7 @@ missing=()
 while read -r package; do
   case $package in '' | '#'*) continue ;; esac
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
-done <scripts/packages.txt
+done < <(cat scripts/packages.txt; printf '%s\n' "$@")
 [ ${#missing[@]} -gt 0 ] || exit 0
 
 as_root=()

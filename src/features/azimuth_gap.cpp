@@ -15,7 +15,8 @@ constexpr int kBins = 64;
 /// than kBins for those that might be too close for an azimuth.
 struct DiamondBins {
   template <int Bytes>
-  static ARRIS_ALWAYS_INLINE void run(const Neighbours& neighbours, const GapQuery& q, std::size_t count, std::int32_t* bins) {
+  static ARRIS_ALWAYS_INLINE void run(const Neighbours& neighbours, const GapQuery& q, std::size_t count,
+                                      std::int32_t* bins) {
     using V = typename simd::Wide<Bytes>::Double;
     constexpr std::size_t kLanes = Bytes / sizeof(double);
     const double skip = 2.0 * q.min_offset + 1e-9;
@@ -58,8 +59,8 @@ bool has_empty_run(std::uint64_t occupied, int length) {
   return run != 0;
 }
 
-/// Diamond angles that any gap of `deg` degrees spans at least: a quarter turn is exactly 1, and a smaller angle spans least when a
-/// diagonal halves it.
+/// Diamond angles that any gap of `deg` degrees spans at least: a quarter turn is exactly 1, and a smaller angle spans
+/// least when a diagonal halves it.
 double least_diamond_span(double deg) {
   const double quarters = std::floor(deg / 90.0);
   const double rest = (deg - 90.0 * quarters) / kDegreesPerRadian;
@@ -131,10 +132,11 @@ AzimuthGapTest::AzimuthGapTest(double threshold_deg, GapSpan span) : threshold_d
   empty_bins_ = static_cast<int>(std::floor((least_diamond_span(threshold_deg) - kSlack) * (kBins / 4.0))) - 1;
 }
 
-GapResult AzimuthGapTest::operator()(const Neighbours& neighbours, const GapQuery& query, std::vector<Entry>& scratch) const {
+GapResult AzimuthGapTest::operator()(const Neighbours& neighbours, const GapQuery& query,
+                                     std::vector<Entry>& scratch) const {
   if (empty_bins_ > 0 && query.count <= 200) {
-    // Near neighbours without a wide gap reject every reading: all neighbours leave less of a gap, and an inner span of far ones lies
-    // within a gap of near ones.
+    // Near neighbours without a wide gap reject every reading: all neighbours leave less of a gap, and an inner span of
+    // far ones lies within a gap of near ones.
     const std::uint64_t occupied = occupied_bins(neighbours, query, std::min(query.near_count, query.count));
     if (!has_empty_run(occupied, empty_bins_)) return {};
   }

@@ -10,7 +10,8 @@
 
 namespace arris {
 
-/// Gaps this much below the threshold still reach it, so that a right angle on a grid is one whatever the rounding. Degrees.
+/// Gaps this much below the threshold still reach it, so that a right angle on a grid is one whatever the rounding.
+/// Degrees.
 constexpr double kGapTie_deg = 1e-7;
 
 /// How eq. 11 reads the azimuth span of a run of far neighbours.

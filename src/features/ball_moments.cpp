@@ -45,7 +45,8 @@ struct SumMembers {
 
 struct Extremes {
   template <int Bytes, class T>
-  static ARRIS_ALWAYS_INLINE void run(const CandidateSet<T>& c, const BallQuery<T>& ball, const Vector3& e, double& low, double& high) {
+  static ARRIS_ALWAYS_INLINE void run(const CandidateSet<T>& c, const BallQuery<T>& ball, const Vector3& e, double& low,
+                                      double& high) {
     using V = typename simd::VectorOf<T, Bytes>::Type;
     const T ex = static_cast<T>(e[0]);
     const T ey = static_cast<T>(e[1]);
@@ -70,8 +71,12 @@ struct Extremes {
   }
 };
 
-void sum(const CandidateSet<float>& c, const BallQuery<float>& b, BallMoments& out) { simd::dispatch<SumMembers>(c, b, out); }
-void sum(const CandidateSet<double>& c, const BallQuery<double>& b, BallMoments& out) { simd::dispatch<SumMembers>(c, b, out); }
+void sum(const CandidateSet<float>& c, const BallQuery<float>& b, BallMoments& out) {
+  simd::dispatch<SumMembers>(c, b, out);
+}
+void sum(const CandidateSet<double>& c, const BallQuery<double>& b, BallMoments& out) {
+  simd::dispatch<SumMembers>(c, b, out);
+}
 
 /// Exact whatever the sizes: 2^32 points at 2^30 steps need 94 bits.
 void sum(const CandidateSet<std::int64_t>& c, const BallQuery<std::int64_t>& ball, BallMoments& out) {
@@ -158,6 +163,7 @@ template double extent_bound(const CandidateSet<double>&, const BallQuery<double
 template double extent_bound(const CandidateSet<std::int64_t>&, const BallQuery<std::int64_t>&, const Vector3&);
 template std::size_t ball_members(const CandidateSet<float>&, const BallQuery<float>&, std::vector<std::uint32_t>&);
 template std::size_t ball_members(const CandidateSet<double>&, const BallQuery<double>&, std::vector<std::uint32_t>&);
-template std::size_t ball_members(const CandidateSet<std::int64_t>&, const BallQuery<std::int64_t>&, std::vector<std::uint32_t>&);
+template std::size_t ball_members(const CandidateSet<std::int64_t>&, const BallQuery<std::int64_t>&,
+                                  std::vector<std::uint32_t>&);
 
 }  // namespace arris

@@ -10,8 +10,8 @@ namespace arris {
 
 template <class T>
 struct BallQuery {
-  T x, y, z;   ///< Centre relative to the candidates' origin.
-  T radius2;   ///< floor(r²) in steps², exact in T: membership is d² <= radius2.
+  T x, y, z;  ///< Centre relative to the candidates' origin.
+  T radius2;  ///< floor(r²) in steps², exact in T: membership is d² <= radius2.
 };
 
 /// Sums over the members relative to the centre; the sums are exact integers (rounded once to double where above 2^53).
@@ -25,16 +25,19 @@ struct BallMoments {
 template <class T>
 bool ball_sums_are_exact(double radius, std::size_t count);
 
-/// Law: bits do not depend on the order of the candidates. Needs ball_sums_are_exact (always true for int64, the slow exact path).
+/// Law: bits do not depend on the order of the candidates. Needs ball_sums_are_exact (always true for int64, the slow
+/// exact path).
 template <class T>
 BallMoments ball_moments(const CandidateSet<T>& candidates, const BallQuery<T>& ball);
 
-/// Upper bound of the members' extent along the unit vector e, steps: never below what any evaluation in double can give.
+/// Upper bound of the members' extent along the unit vector e, steps: never below what any evaluation in double can
+/// give.
 template <class T>
 double extent_bound(const CandidateSet<T>& candidates, const BallQuery<T>& ball, const Vector3& e);
 
 /// Members (indices of candidates) in ascending order of candidates.
 template <class T>
-std::size_t ball_members(const CandidateSet<T>& candidates, const BallQuery<T>& ball, std::vector<std::uint32_t>& members);
+std::size_t ball_members(const CandidateSet<T>& candidates, const BallQuery<T>& ball,
+                         std::vector<std::uint32_t>& members);
 
 }  // namespace arris

@@ -41,8 +41,8 @@ std::size_t append(const PointTree& tree, std::size_t begin, std::size_t end, co
 }
 
 #if ARRIS_X86_KERNELS
-ARRIS_TARGET_V4 std::size_t append_avx512(const PointTree& tree, std::size_t begin, std::size_t end, const Window<float>& w,
-                                       CandidateSet<float>& out, std::size_t n) {
+ARRIS_TARGET_V4 std::size_t append_avx512(const PointTree& tree, std::size_t begin, std::size_t end,
+                                          const Window<float>& w, CandidateSet<float>& out, std::size_t n) {
   const __m512i slots = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const std::int32_t* axes[3] = {tree.x(), tree.y(), tree.z()};
   for (std::size_t i = begin; i < end; i += 16) {
@@ -71,8 +71,8 @@ ARRIS_TARGET_V4 std::size_t append_avx512(const PointTree& tree, std::size_t beg
   return n;
 }
 
-ARRIS_TARGET_V3 std::size_t append_avx2(const PointTree& tree, std::size_t begin, std::size_t end, const Window<float>& w,
-                                        CandidateSet<float>& out, std::size_t n) {
+ARRIS_TARGET_V3 std::size_t append_avx2(const PointTree& tree, std::size_t begin, std::size_t end,
+                                        const Window<float>& w, CandidateSet<float>& out, std::size_t n) {
   const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   const std::int32_t* axes[3] = {tree.x(), tree.y(), tree.z()};
   for (std::size_t i = begin; i < end; i += 8) {
@@ -88,7 +88,8 @@ ARRIS_TARGET_V3 std::size_t append_avx2(const PointTree& tree, std::size_t begin
       const __m256 gap = _mm256_max_ps(_mm256_max_ps(below, above), _mm256_setzero_ps());
       d2 = _mm256_add_ps(d2, _mm256_mul_ps(gap, gap));
     }
-    const __m256 in = _mm256_and_ps(_mm256_cmp_ps(d2, _mm256_set1_ps(w.reach2), _CMP_LE_OQ), _mm256_castsi256_ps(valid));
+    const __m256 in =
+        _mm256_and_ps(_mm256_cmp_ps(d2, _mm256_set1_ps(w.reach2), _CMP_LE_OQ), _mm256_castsi256_ps(valid));
     const int mask = _mm256_movemask_ps(in);
     if (mask == 0) continue;
     const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i*>(simd::kCompactTable.lanes[mask]));
@@ -104,8 +105,8 @@ ARRIS_TARGET_V3 std::size_t append_avx2(const PointTree& tree, std::size_t begin
 #endif
 
 template <class T>
-std::size_t append_best(const PointTree& tree, std::size_t begin, std::size_t end, const Window<T>& w, CandidateSet<T>& out,
-                        std::size_t n) {
+std::size_t append_best(const PointTree& tree, std::size_t begin, std::size_t end, const Window<T>& w,
+                        CandidateSet<T>& out, std::size_t n) {
 #if ARRIS_X86_KERNELS
   if constexpr (std::is_same_v<T, float>) {
     if (simd::widest_bytes() == 64) return append_avx512(tree, begin, end, w, out, n);

@@ -35,7 +35,8 @@ ARRIS_ALWAYS_INLINE T bounded(T difference) {
   }
 }
 
-/// Candidates as structure of arrays relative to `origin`. `T` is float, double or std::int64_t; coordinates are exact in it.
+/// Candidates as structure of arrays relative to `origin`. `T` is float, double or std::int64_t; coordinates are exact
+/// in it.
 template <class T>
 struct CandidateSet {
   std::vector<T> x, y, z;
@@ -43,9 +44,10 @@ struct CandidateSet {
   std::size_t count = 0;
   std::int64_t origin[3] = {0, 0, 0};
 
-  /// Every point within `reach` steps of `box`, and some more: complete for queries inside the box up to that distance. Arrays are
-  /// padded to a multiple of simd::kPadding with points far outside of any reach. Returns false, with no meaningful content, if a
-  /// coordinate is not exact in T: the caller takes a wider type. O(points in the buckets that the reach touches).
+  /// Every point within `reach` steps of `box`, and some more: complete for queries inside the box up to that distance.
+  /// Arrays are padded to a multiple of simd::kPadding with points far outside of any reach. Returns false, with no
+  /// meaningful content, if a coordinate is not exact in T: the caller takes a wider type. O(points in the buckets that
+  /// the reach touches).
   bool gather(const PointTree& tree, const ClosedBox& box, double reach);
 
  private:

@@ -36,7 +36,9 @@ void ContourAccumulator::add_fold(std::size_t slot, float strength, float angle_
   }
 }
 
-void ContourAccumulator::add_isolated(std::size_t slot) { marks_[slot] |= kIsolatedMark; }
+void ContourAccumulator::add_isolated(std::size_t slot) {
+  marks_[slot] |= kIsolatedMark;
+}
 
 ContourRecord ContourAccumulator::record(std::size_t slot) const {
   ContourRecord record;

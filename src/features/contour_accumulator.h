@@ -4,16 +4,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/tile_points.h"
 #include "features/azimuth_gap.h"
 #include "features/contour_record.h"
 #include "features/fold_test.h"
 #include "features/point_tree.h"
-#include "features/tile_points.h"
 
 namespace arris {
 
-/// Slots are indices in tree order. 17 bytes per point (5 without folds). Adding is thread-safe: fold emissions are commutative
-/// atomic updates with the semantics of combine(), all else has one writer per slot.
+/// Slots are indices in tree order. 17 bytes per point (5 without folds). Adding is thread-safe: fold emissions are
+/// commutative atomic updates with the semantics of combine(), all else has one writer per slot.
 class ContourAccumulator {
  public:
   ContourAccumulator(std::size_t points, bool folds);
@@ -34,7 +34,8 @@ class ContourAccumulator {
   std::vector<std::uint8_t> marks_;
   std::vector<float> gap_deg_;
   std::vector<std::uint32_t> votes_;
-  /// Bits of the strength above the complement of the bits of the angle: the maximum is the strongest, and of those the sharpest.
+  /// Bits of the strength above the complement of the bits of the angle: the maximum is the strongest, and of those the
+  /// sharpest.
   std::vector<std::uint64_t> strongest_;
 };
 

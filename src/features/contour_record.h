@@ -5,8 +5,8 @@
 
 namespace arris {
 
-/// A partial result for one point. Combining is commutative and associative, so the order in which tiles are processed and
-/// merged cannot matter.
+/// A partial result for one point. Combining is commutative and associative, so the order in which tiles are processed
+/// and merged cannot matter.
 struct ContourRecord {
   std::uint64_t id = 0;
   std::uint8_t classes = 0;     ///< EdgeClassBit flags.

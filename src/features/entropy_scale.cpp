@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::size_t kLanes = 8;
 
-/// First and second moments of a growing set, relative to the query. Exact while k * distance² < 2^53; beyond, the canonical order
-/// of the neighbours makes the rounding the same everywhere.
+/// First and second moments of a growing set, relative to the query. Exact while k * distance² < 2^53; beyond, the
+/// canonical order of the neighbours makes the rounding the same everywhere.
 struct RunningMoments {
   double x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
 
@@ -75,9 +75,8 @@ struct Evaluation {
   double entropy[kLanes];
 
   ScaleChoice choice(std::size_t lane, int k) const {
-    return {k,
-            {xx[lane], xy[lane], xz[lane], yy[lane], yz[lane], zz[lane]},
-            {largest[lane], middle[lane], smallest[lane]}};
+    return {
+        k, {xx[lane], xy[lane], xz[lane], yy[lane], yz[lane], zz[lane]}, {largest[lane], middle[lane], smallest[lane]}};
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-/// @file The number of neighbours whose shape is clearest: the smallest entropy of the dimensional features (Liu et al., eq. 1-6).
+/// @file The number of neighbours whose shape is clearest: the smallest entropy of the dimensional features (Liu et
+/// al., eq. 1-6).
 
 #include <cstddef>
 
@@ -17,11 +18,12 @@ struct ScaleRange {
   double min_planarity = 0.05;
 };
 
-/// Entropies closer than this are a tie, which the smaller k wins: exact planes have entropies that are equal but for rounding.
+/// Entropies closer than this are a tie, which the smaller k wins: exact planes have entropies that are equal but for
+/// rounding.
 constexpr double kEntropyTie = 1e-6;
 
 struct ScaleChoice {
-  int k = 0;  ///< k_opt; 0 if there are fewer than k_min neighbours.
+  int k = 0;                             ///< k_opt; 0 if there are fewer than k_min neighbours.
   SymmetricMatrix<double> covariance{};  ///< Of the chosen neighbourhood, times an irrelevant factor; steps².
   Eigenvalues<double> values{};          ///< Of the covariance.
 };

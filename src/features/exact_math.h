@@ -1,5 +1,6 @@
 #pragma once
-/// @file Logarithm and arc functions from + - * / sqrt only, so that results do not depend on the C library or the processor.
+/// @file Logarithm and arc functions from + - * / sqrt only, so that results do not depend on the C library or the
+/// processor.
 ///
 /// `V` is double or a vector of doubles; all give the same bits lane by lane.
 
@@ -20,7 +21,8 @@ ARRIS_ALWAYS_INLINE V log_of_positive(const V& x) {
   constexpr std::int64_t kSqrtHalf = 0x3fe6a09e667f3bcd;
   constexpr std::int64_t kTwoTo52 = 0x4330000000000000;
   const auto raw = simd::bits(x);
-  const auto biased = simd::shift_right_unsigned(raw + (kOne - kSqrtHalf), 52);  // Exponent + 1023 for m in [sqrt(1/2), sqrt(2)).
+  const auto biased =
+      simd::shift_right_unsigned(raw + (kOne - kSqrtHalf), 52);  // Exponent + 1023 for m in [sqrt(1/2), sqrt(2)).
   const V exponent = simd::from_bits(biased | kTwoTo52) - (4503599627370496.0 + 1023.0);
   const V m = simd::from_bits(raw - ((biased - 1023) << 52));
   const V s = (m - 1.0) / (m + 1.0);
@@ -44,9 +46,9 @@ inline double angle_of(double y, double x) {
   const double large = std::max(ax, ay);
   if (large == 0.0) return 0.0;
   // Reduce the ratio t in [0, 1] by the addition theorem to |t| <= tan(pi/16), where the series converges fast.
-  constexpr double kTangent[] = {0.19891236737965800691, 0.66817863791929891999};         // tan(pi/16), tan(3 pi/16)
-  constexpr double kCentre[] = {0.41421356237309504880, 1.0};                              // tan(pi/8), tan(pi/4)
-  constexpr double kCentreAngle[] = {0.39269908169872415481, 0.78539816339744830962};      // pi/8, pi/4
+  constexpr double kTangent[] = {0.19891236737965800691, 0.66817863791929891999};      // tan(pi/16), tan(3 pi/16)
+  constexpr double kCentre[] = {0.41421356237309504880, 1.0};                          // tan(pi/8), tan(pi/4)
+  constexpr double kCentreAngle[] = {0.39269908169872415481, 0.78539816339744830962};  // pi/8, pi/4
   double t = std::min(ax, ay) / large;
   double base = 0.0;
   for (int i = 1; i >= 0; --i) {

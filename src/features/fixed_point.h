@@ -8,8 +8,8 @@
 
 namespace arris {
 
-/// Rounds values in [0, largest] to multiples of a power of two, chosen so that sums of up to `terms` rounded values are exact.
-/// The multiple is about 2^-bits of `largest`, coarser only if that many terms need the room.
+/// Rounds values in [0, largest] to multiples of a power of two, chosen so that sums of up to `terms` rounded values
+/// are exact. The multiple is about 2^-bits of `largest`, coarser only if that many terms need the room.
 class FixedPoint {
  public:
   FixedPoint(double largest, std::size_t terms, int bits) {

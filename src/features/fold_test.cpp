@@ -24,7 +24,8 @@ struct Sides {
 /// Arrays are padded to full vectors with points on the chord, which add nothing.
 struct Measure {
   template <int Bytes>
-  static ARRIS_ALWAYS_INLINE void run(FoldScratch& s, std::size_t n, const Chord& chord, double magic, double on_line, Sides& sides) {
+  static ARRIS_ALWAYS_INLINE void run(FoldScratch& s, std::size_t n, const Chord& chord, double magic, double on_line,
+                                      Sides& sides) {
     using V = typename simd::Wide<Bytes>::Double;
     using Mask = typename simd::Wide<Bytes>::Long;
     constexpr std::size_t kLanes = Bytes / sizeof(double);
@@ -81,8 +82,8 @@ void project(const PrincipalFrame& frame, FoldScratch& s) {
   }
 }
 
-/// Members that can be an end of the diameter: it is at least as long as the span along u, and no member is farther out than
-/// `reach`, so an end lies at least the difference from the centre. The margin covers rounding.
+/// Members that can be an end of the diameter: it is at least as long as the span along u, and no member is farther out
+/// than `reach`, so an end lies at least the difference from the centre. The margin covers rounding.
 void gather_ends(FoldScratch& s, double radius) {
   const std::size_t n = s.members.size();
   std::size_t left = 0;
@@ -131,7 +132,8 @@ double chord_deviation_bound(const Eigenvalues<double>& values, double n, double
   return std::sqrt(variance * n / (n - 1.0)) * (1.0 + 1e-6) + 1e-6 * radius;
 }
 
-void evaluate_fold(const PrincipalFrame& frame, const FoldThresholds& thresholds, FoldScratch& s, FoldEmission& emission) {
+void evaluate_fold(const PrincipalFrame& frame, const FoldThresholds& thresholds, FoldScratch& s,
+                   FoldEmission& emission) {
   emission.slots.clear();
   const std::size_t n = s.members.size();
   if (n < kLeastBallPoints) return;
@@ -158,7 +160,8 @@ void evaluate_fold(const PrincipalFrame& frame, const FoldThresholds& thresholds
   const auto majority = static_cast<double>(std::max(sides.left, sides.right));
   const auto minority = static_cast<double>(std::min(sides.left, sides.right));
   // Nobody on one side: infinitely one-sided; nobody on either: 1.
-  const bool one_sided = minority > 0.0 ? majority >= thresholds.cf2 * minority : majority > 0.0 || thresholds.cf2 <= 1.0;
+  const bool one_sided =
+      minority > 0.0 ? majority >= thresholds.cf2 * minority : majority > 0.0 || thresholds.cf2 <= 1.0;
   if (!one_sided) return;
   pick_top(s, static_cast<std::size_t>(thresholds.top_m), emission);
   emission.strength = static_cast<float>(cf1 / thresholds.cf1);

@@ -6,49 +6,51 @@
 #include <vector>
 
 #include "core/lattice.h"
+#include "core/tile_points.h"
 #include "features/contour_record.h"
 #include "features/liu_parameters.h"
-#include "features/tile_points.h"
 
 namespace arris {
 
-/// A query whose support could not be proven to lie inside TilePoints::covered. Running it again on points that cover the
-/// ball of `reach_steps` around `position` is guaranteed to prove it.
+/// A query whose support could not be proven to lie inside TilePoints::covered. Running it again on points that cover
+/// the ball of `reach_steps` around `position` is guaranteed to prove it.
 struct UnprovenQuery {
   std::uint64_t id = 0;
   LatticePoint position;
-  std::int64_t reach_steps = 0;  ///< Chebyshev reach: the box position +- reach must be covered. At most ceil(R_max) + 1.
+  std::int64_t reach_steps =
+      0;  ///< Chebyshev reach: the box position +- reach must be covered. At most ceil(R_max) + 1.
 };
 
 struct TileContours {
-  /// Records of contour points only; at most one per id, ascending ids. Boundary bits concern queried points; fold votes may concern any point
-  /// in a ball, owned by this tile or not. Duplicates are expanded: every id at a contour position has its record.
+  /// Records of contour points only; at most one per id, ascending ids. Boundary bits concern queried points; fold
+  /// votes may concern any point in a ball, owned by this tile or not. Duplicates are expanded: every id at a contour
+  /// position has its record.
   std::vector<ContourRecord> records;
   std::vector<UnprovenQuery> unproven;  ///< Ascending ids. They left no trace in `records` and `isolated`.
   std::uint64_t isolated = 0;  ///< Queried points with fewer than k_min neighbours within R_max (duplicates count).
 };
 
-/// Runs the method for every core point of the tile (or, if `queries` is given, for those indices of tile.positions only).
-/// Results of proven queries depend on the input points and the parameters only, not on tile.core, tile.covered, the order of
-/// entries or the number of threads. Runs in parallel (core/parallel.h). Memory beyond the tile: see liu_bytes_per_point.
-/// Throws ConfigError if a parameter is out of range, or if R_max is more than 2^30 lattice steps. A ball or k-th distance that
-/// just reaches the limit of `covered` is unproven, not wrong. Complexity: O(n log n) for the tree, then about the points within
-/// the supports. Source: Liu et al., eq. 1-24, read as docs/methods-liu.md says.
+/// Runs the method for every core point of the tile (or, if `queries` is given, for those indices of tile.positions
+/// only). Results of proven queries depend on the input points and the parameters only, not on tile.core, tile.covered,
+/// the order of entries or the number of threads. Runs in parallel (core/parallel.h). Memory beyond the tile: see
+/// liu_bytes_per_point. Throws ConfigError if a parameter is out of range, or if R_max is more than 2^30 lattice steps.
+/// A ball or k-th distance that just reaches the limit of `covered` is unproven, not wrong. Complexity: O(n log n) for
+/// the tree, then about the points within the supports. Source: Liu et al., eq. 1-24, read as docs/methods-liu.md says.
 TileContours extract_liu(const TilePoints& tile, const Lattice& lattice, const LiuParameters& parameters);
 TileContours extract_liu(const TilePoints& tile, const Lattice& lattice, const LiuParameters& parameters,
                          std::span<const std::uint32_t> queries);
 
-/// Bytes that extract_liu needs beyond the tile itself, for predictions. Per position: 43 for the search tree and the dense results,
-/// and 32 per returned record, of which scans have one in three positions at most. Per thread: scratch memory, which grows by about
-/// 200 bytes per member if a fixed ball radius makes balls of more than 20 000 points.
+/// Bytes that extract_liu needs beyond the tile itself, for predictions. Per position: 43 for the search tree and the
+/// dense results, and 32 per returned record, of which scans have one in three positions at most. Per thread: scratch
+/// memory, which grows by about 200 bytes per member if a fixed ball radius makes balls of more than 20 000 points.
 constexpr double kLiuBytesPerPoint = 56.0;
 constexpr double kLiuBytesPerThread = 4.0 * 1024 * 1024;
 
 /// A halo, in data units, that proves nearly all queries where the spacing is at most `spacing`.
 double liu_halo(const LiuParameters& parameters, double spacing);
 
-/// EdgeScore in [0, 1] of a combined record: the larger of what its two kinds of evidence say. Boundary: 0.5 at the gap threshold,
-/// rising linearly to 1 at a full turn; weak boundary: half of that. Fold: votes / (votes + 3).
+/// EdgeScore in [0, 1] of a combined record: the larger of what its two kinds of evidence say. Boundary: 0.5 at the gap
+/// threshold, rising linearly to 1 at a full turn; weak boundary: half of that. Fold: votes / (votes + 3).
 float liu_score(const ContourRecord& record, const LiuParameters& parameters);
 
 }  // namespace arris

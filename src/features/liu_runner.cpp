@@ -8,15 +8,19 @@
 namespace arris {
 namespace {
 
-/// The first reach is guessed this much above the mean need of the group before: most queries then need no second gathering, and
-/// candidates stay few.
+/// The first reach is guessed this much above the mean need of the group before: most queries then need no second
+/// gathering, and candidates stay few.
 constexpr double kReachMargin = 1.25;
 constexpr double kReachGrowth = 1.4;
 /// Balls up to this much larger than the median of their group share its candidates.
 constexpr double kBallSpread = 1.3;
 
-std::uint32_t slot_of(std::uint32_t slot) { return slot; }
-std::uint32_t slot_of(const LiuBall& ball) { return ball.slot; }
+std::uint32_t slot_of(std::uint32_t slot) {
+  return slot;
+}
+std::uint32_t slot_of(const LiuBall& ball) {
+  return ball.slot;
+}
 
 /// Box around queries: slots, or anything else that slot_of knows.
 template <class Query>
@@ -148,11 +152,13 @@ void LiuRunner::use_neighbours(std::uint32_t slot) {
 bool LiuRunner::proven(std::uint32_t slot, const FoldThresholds& fold) {
   const LiuSettings& settings = task_.settings;
   const LatticePoint position = task_.tree.position(slot);
-  const auto depth = static_cast<std::uint64_t>(std::min<std::int64_t>(task_.covered.depth(position), std::int64_t{1} << 31));
+  const auto depth =
+      static_cast<std::uint64_t>(std::min<std::int64_t>(task_.covered.depth(position), std::int64_t{1} << 31));
   const std::uint64_t seen_d2 = depth * depth;  // Every lattice position nearer than this is covered.
   if (settings.max_d2 < seen_d2) return true;
   const bool full = neighbours_.count == static_cast<std::size_t>(settings.parameters.k_max);
-  if (full && neighbours_.last_d2 < seen_d2 && (!settings.parameters.fold || fold.radius * fold.radius < static_cast<double>(seen_d2))) {
+  if (full && neighbours_.last_d2 < seen_d2 &&
+      (!settings.parameters.fold || fold.radius * fold.radius < static_cast<double>(seen_d2))) {
     return true;
   }
   // With k_max neighbours known, unseen points can only bring the last one and the ball closer.
@@ -176,11 +182,13 @@ void LiuRunner::test_boundary(std::uint32_t slot, const LocalSpacing& spacing) {
   query.count = static_cast<std::size_t>(choice.k);
   const double far = task_.settings.far_distance(spacing);
   const auto end = neighbours_.d2.begin() + choice.k;
-  query.near_count = static_cast<std::size_t>(std::upper_bound(neighbours_.d2.begin(), end, far * far) - neighbours_.d2.begin());
+  query.near_count =
+      static_cast<std::size_t>(std::upper_bound(neighbours_.d2.begin(), end, far * far) - neighbours_.d2.begin());
   query.min_offset = 1e-6 * spacing.nearest;
   const AzimuthGapTest& test = task_.settings.gap_test;
-  task_.results.add_gap(slot, task_.settings.switches.early_rejection ? test(neighbours_, query, azimuths_)
-                                                                      : test.without_rejection(neighbours_, query, azimuths_));
+  task_.results.add_gap(slot, task_.settings.switches.early_rejection
+                                  ? test(neighbours_, query, azimuths_)
+                                  : test.without_rejection(neighbours_, query, azimuths_));
 }
 
 void LiuRunner::run_balls(std::span<const LiuBall> balls) {
@@ -231,8 +239,9 @@ void LiuRunner::test_fold(const CandidateSet<T>& candidates, const LiuBall& quer
     const T dy = candidates.y[c] - ball.y;
     const T dz = candidates.z[c] - ball.z;
     const std::uint32_t member = candidates.slot[c];
-    fold_.members[i] = {static_cast<double>(dx), static_cast<double>(dy), static_cast<double>(dz),
-                        static_cast<double>(dx * dx + dy * dy + dz * dz), tree.id(member), member};
+    fold_.members[i] = {static_cast<double>(dx), static_cast<double>(dy),
+                        static_cast<double>(dz), static_cast<double>(dx * dx + dy * dy + dz * dz),
+                        tree.id(member),         member};
   }
   evaluate_fold(frame, thresholds, fold_, emission_);
   const bool own_only = task_.settings.parameters.emit == LiuParameters::Emit::kSelf;

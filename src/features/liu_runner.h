@@ -28,9 +28,9 @@ struct LiuBall {
   FoldThresholds thresholds;
 };
 
-/// Not thread-safe; make one per chunk. Candidates are gathered once for all queries of a group, first for the neighbours and the
-/// boundary test, then for the balls, whose radii are known by then. How far the first gathering reaches is guessed from the group
-/// before; queries that need more are run again. That decides the speed only.
+/// Not thread-safe; make one per chunk. Candidates are gathered once for all queries of a group, first for the
+/// neighbours and the boundary test, then for the balls, whose radii are known by then. How far the first gathering
+/// reaches is guessed from the group before; queries that need more are run again. That decides the speed only.
 class LiuRunner {
  public:
   explicit LiuRunner(const LiuTask& task);
@@ -74,7 +74,7 @@ class LiuRunner {
   FoldScratch fold_;
   FoldEmission emission_;
   std::vector<std::uint32_t> pending_;  ///< Queries that the current reach did not do for.
-  std::vector<LiuBall> balls_;             ///< Balls of the current group.
+  std::vector<LiuBall> balls_;          ///< Balls of the current group.
   std::vector<UnprovenQuery> unproven_;
   double reach_sum_ = 0.0;  ///< Of the distances of last neighbours in the current group.
   std::size_t measured_ = 0;

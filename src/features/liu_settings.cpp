@@ -12,7 +12,8 @@
 namespace arris {
 namespace {
 
-/// 0.60 sigma is the standard deviation of |N(0, sigma²)|, what C_f1 shows on flat ground; three times that is no accident.
+/// 0.60 sigma is the standard deviation of |N(0, sigma²)|, what C_f1 shows on flat ground; three times that is no
+/// accident.
 constexpr double kFlatDeviations = 3.0 * 0.60;
 
 const LiuParameters& checked(const LiuParameters& parameters) {
@@ -36,7 +37,8 @@ LiuSettings::LiuSettings(const LiuParameters& p, const Lattice& lattice, const L
       gap_test(p.gap_deg, span_of(p.span)) {
   if (!(max_reach <= kMostReach)) {
     throw ConfigError(
-        fmt::format("--max-radius {} is {:.3g} lattice steps of {}, more than 2^30: choose a smaller radius or a larger lattice step",
+        fmt::format("--max-radius {} is {:.3g} lattice steps of {}, more than 2^30: choose a smaller radius or a "
+                    "larger lattice step",
                     p.max_radius, max_reach, lattice.step));
   }
   max_d2 = static_cast<std::uint64_t>(max_reach * max_reach);

@@ -32,7 +32,7 @@ struct LiuSettings {
 
   /// Spacings to use at a point: the estimate, or the one the user gave.
   LocalSpacing spacing(const Neighbours& neighbours) const;
-  double far_distance(const LocalSpacing& spacing) const;         ///< d_thr, steps.
+  double far_distance(const LocalSpacing& spacing) const;             ///< d_thr, steps.
   FoldThresholds fold_thresholds(const LocalSpacing& spacing) const;  ///< r (at most R_max) and C'_f1, steps.
 };
 

@@ -20,7 +20,8 @@ double liu_halo(const LiuParameters& parameters, double spacing) {
   double reach = spacing * std::sqrt(parameters.k_max / kPi);
   if (parameters.fold) {
     // Votes are combined over tiles, so that the ball around the query is all that must be seen.
-    reach = std::max(reach, parameters.radius > 0.0 ? parameters.radius / kHaloMargin : parameters.radius_factor * spacing);
+    reach =
+        std::max(reach, parameters.radius > 0.0 ? parameters.radius / kHaloMargin : parameters.radius_factor * spacing);
   }
   reach *= kHaloMargin;
   return parameters.max_radius > 0.0 ? std::min(reach, parameters.max_radius) : reach;

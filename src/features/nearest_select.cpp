@@ -15,7 +15,8 @@ constexpr std::size_t kMostRanked = 160;
 template <class T>
 ARRIS_ALWAYS_INLINE std::size_t collect_within(const CandidateSet<T>& c, const NearestQuery<T>& q, T limit, T* d2_out,
                                                std::uint32_t* candidate_out) {
-  constexpr std::size_t kBlock = 64;  // Distances of a block first: that loop has no dependences and becomes vector code.
+  constexpr std::size_t kBlock =
+      64;  // Distances of a block first: that loop has no dependences and becomes vector code.
   T d2[kBlock];
   std::size_t n = 0;
   for (std::size_t begin = 0; begin < c.count; begin += kBlock) {
@@ -36,8 +37,8 @@ ARRIS_ALWAYS_INLINE std::size_t collect_within(const CandidateSet<T>& c, const N
 }
 
 #if ARRIS_X86_KERNELS
-ARRIS_TARGET_V4 std::size_t collect_avx512(const CandidateSet<float>& c, const NearestQuery<float>& q, float limit, float* d2_out,
-                                        std::uint32_t* candidate_out) {
+ARRIS_TARGET_V4 std::size_t collect_avx512(const CandidateSet<float>& c, const NearestQuery<float>& q, float limit,
+                                           float* d2_out, std::uint32_t* candidate_out) {
   const __m512 qx = _mm512_set1_ps(q.x);
   const __m512 qy = _mm512_set1_ps(q.y);
   const __m512 qz = _mm512_set1_ps(q.z);
@@ -58,8 +59,8 @@ ARRIS_TARGET_V4 std::size_t collect_avx512(const CandidateSet<float>& c, const N
   return n;
 }
 
-ARRIS_TARGET_V3 std::size_t collect_avx2(const CandidateSet<float>& c, const NearestQuery<float>& q, float limit, float* d2_out,
-                                         std::uint32_t* candidate_out) {
+ARRIS_TARGET_V3 std::size_t collect_avx2(const CandidateSet<float>& c, const NearestQuery<float>& q, float limit,
+                                         float* d2_out, std::uint32_t* candidate_out) {
   const __m256 qx = _mm256_set1_ps(q.x);
   const __m256 qy = _mm256_set1_ps(q.y);
   const __m256 qz = _mm256_set1_ps(q.z);
@@ -152,10 +153,9 @@ void order_ties(const PointTree& tree, const CandidateSet<T>& candidates, Neares
     std::size_t end = begin + 1;
     while (end < n && s.sorted_d2[end] == s.sorted_d2[begin]) ++end;
     if (end - begin > 1) {
-      std::sort(s.sorted.begin() + static_cast<std::ptrdiff_t>(begin), s.sorted.begin() + static_cast<std::ptrdiff_t>(end),
-                [&](std::uint32_t a, std::uint32_t b) {
-                  return tree.id(candidates.slot[a]) < tree.id(candidates.slot[b]);
-                });
+      std::sort(
+          s.sorted.begin() + static_cast<std::ptrdiff_t>(begin), s.sorted.begin() + static_cast<std::ptrdiff_t>(end),
+          [&](std::uint32_t a, std::uint32_t b) { return tree.id(candidates.slot[a]) < tree.id(candidates.slot[b]); });
     }
     begin = end;
   }

@@ -43,8 +43,8 @@ struct NearestScratch {
   std::vector<std::pair<T, std::uint32_t>> pairs;
 };
 
-/// The query itself is one of the candidates. Fills min(k, those within max_d2) neighbours; ties are resolved by id. Complexity:
-/// O(candidates + s²/16), s being the number within the guess.
+/// The query itself is one of the candidates. Fills min(k, those within max_d2) neighbours; ties are resolved by id.
+/// Complexity: O(candidates + s²/16), s being the number within the guess.
 template <class T>
 void select_nearest(const PointTree& tree, const CandidateSet<T>& candidates, const NearestQuery<T>& query,
                     NearestScratch<T>& scratch, Neighbours& found);

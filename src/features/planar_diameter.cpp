@@ -14,7 +14,9 @@ double squared_length(const PlanarPoint& a, const PlanarPoint& b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
-bool canonical_less(const PlanarPoint& a, const PlanarPoint& b) { return a.d2 != b.d2 ? a.d2 < b.d2 : a.id < b.id; }
+bool canonical_less(const PlanarPoint& a, const PlanarPoint& b) {
+  return a.d2 != b.d2 ? a.d2 < b.d2 : a.id < b.id;
+}
 
 /// Replaces sorted, distinct points by their hull, counter-clockwise, without collinear points.
 void keep_hull(std::vector<PlanarPoint>& points, std::vector<PlanarPoint>& hull) {

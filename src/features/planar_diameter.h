@@ -14,13 +14,13 @@ struct PlanarPoint {
 };
 
 struct Diameter {
-  PlanarPoint a, b;     ///< a comes before b in canonical order.
-  double length2 = 0;   ///< 0 if all points coincide (or there are fewer than two).
+  PlanarPoint a, b;    ///< a comes before b in canonical order.
+  double length2 = 0;  ///< 0 if all points coincide (or there are fewer than two).
 };
 
-/// Convex hull (monotone chain) and rotating calipers. Ties of the computed length go to the pair that is first in canonical order.
-/// O(n log n). `points` is reordered and cut down to its hull; `hull` is reusable memory. Law: bits depend on the set only, not on
-/// its order.
+/// Convex hull (monotone chain) and rotating calipers. Ties of the computed length go to the pair that is first in
+/// canonical order. O(n log n). `points` is reordered and cut down to its hull; `hull` is reusable memory. Law: bits
+/// depend on the set only, not on its order.
 Diameter planar_diameter(std::vector<PlanarPoint>& points, std::vector<PlanarPoint>& hull);
 
 }  // namespace arris

@@ -19,9 +19,10 @@ struct ClosedBox {
 /// Lower bound of the squared distance between two boxes; exact below 2^53 steps².
 double squared_distance(const ClosedBox& a, const ClosedBox& b);
 
-/// Positions sorted into 2^depth buckets of 16 to 32 points (fewer if there are fewer), bucket boxes tight. Buckets that are close in
-/// number are close in space. Building takes O(n log n), in parallel; 24 bytes per point and about 3 per point for boxes. Reading is
-/// thread-safe. Nothing that is found may depend on the tree's shape, which depends on the order of the entries.
+/// Positions sorted into 2^depth buckets of 16 to 32 points (fewer if there are fewer), bucket boxes tight. Buckets
+/// that are close in number are close in space. Building takes O(n log n), in parallel; 24 bytes per point and about 3
+/// per point for boxes. Reading is thread-safe. Nothing that is found may depend on the tree's shape, which depends on
+/// the order of the entries.
 class PointTree {
  public:
   PointTree(std::span<const LatticePoint> positions, std::span<const std::uint64_t> ids);

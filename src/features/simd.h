@@ -1,11 +1,12 @@
 #pragma once
 /// @file Vectors of a width chosen at run time, for the hot loops.
 ///
-/// A kernel is a struct with a static template `run<Bytes>(args...)` that works with vectors of that many bytes; simd::dispatch
-/// calls it at the width that the processor has, in a function compiled for that processor.
+/// A kernel is a struct with a static template `run<Bytes>(args...)` that works with vectors of that many bytes;
+/// simd::dispatch calls it at the width that the processor has, in a function compiled for that processor.
 ///
-/// Law: a kernel gives the same bits at every width. Contraction is off, and only + - * / sqrt, comparisons and bit operations are
-/// used, all exactly defined by IEEE 754; sums over lanes are either exact or made in an order that the width does not touch.
+/// Law: a kernel gives the same bits at every width. Contraction is off, and only + - * / sqrt, comparisons and bit
+/// operations are used, all exactly defined by IEEE 754; sums over lanes are either exact or made in an order that the
+/// width does not touch.
 
 #include <bit>
 #include <cmath>
@@ -14,7 +15,8 @@
 #include <cstring>
 
 #if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wpsabi"  // Vectors never cross a call that is not inlined, so their ABI does not matter.
+#pragma GCC diagnostic ignored \
+    "-Wpsabi"  // Vectors never cross a call that is not inlined, so their ABI does not matter.
 #endif
 
 #define ARRIS_ALWAYS_INLINE inline __attribute__((always_inline))
@@ -22,7 +24,8 @@
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(ARRIS_PLAIN_KERNELS)
 #define ARRIS_X86_KERNELS 1
 #define ARRIS_TARGET_V3 __attribute__((target("avx2,bmi,bmi2,lzcnt,popcnt,fma")))
-#define ARRIS_TARGET_V4 __attribute__((target("avx2,bmi,bmi2,lzcnt,popcnt,fma,avx512f,avx512bw,avx512cd,avx512dq,avx512vl")))
+#define ARRIS_TARGET_V4 \
+  __attribute__((target("avx2,bmi,bmi2,lzcnt,popcnt,fma,avx512f,avx512bw,avx512cd,avx512dq,avx512vl")))
 #else
 #define ARRIS_X86_KERNELS 0
 #endif
@@ -57,7 +60,9 @@ struct VectorOf<double, Bytes> {
 constexpr int kWidestBytes = 64;
 /// Arrays read by kernels are padded to a multiple of this many elements.
 constexpr std::size_t kPadding = 16;
-constexpr std::size_t padded(std::size_t count) { return (count + kPadding - 1) / kPadding * kPadding; }
+constexpr std::size_t padded(std::size_t count) {
+  return (count + kPadding - 1) / kPadding * kPadding;
+}
 
 template <class V, class T>
 ARRIS_ALWAYS_INLINE V load(const T* from) {
@@ -71,7 +76,9 @@ ARRIS_ALWAYS_INLINE void store(T* to, const V& v) {
   std::memcpy(to, &v, sizeof(V));
 }
 
-ARRIS_ALWAYS_INLINE double square_root(double v) { return std::sqrt(v); }
+ARRIS_ALWAYS_INLINE double square_root(double v) {
+  return std::sqrt(v);
+}
 template <class V>
 ARRIS_ALWAYS_INLINE V square_root(const V& v) {
   V root;
@@ -80,12 +87,16 @@ ARRIS_ALWAYS_INLINE V square_root(const V& v) {
 }
 
 /// Bits of doubles, one or many.
-ARRIS_ALWAYS_INLINE std::int64_t bits(double v) { return std::bit_cast<std::int64_t>(v); }
+ARRIS_ALWAYS_INLINE std::int64_t bits(double v) {
+  return std::bit_cast<std::int64_t>(v);
+}
 template <class V>
 ARRIS_ALWAYS_INLINE auto bits(const V& v) {
   return (typename Wide<sizeof(V)>::Long)v;
 }
-ARRIS_ALWAYS_INLINE double from_bits(std::int64_t v) { return std::bit_cast<double>(v); }
+ARRIS_ALWAYS_INLINE double from_bits(std::int64_t v) {
+  return std::bit_cast<double>(v);
+}
 template <class L>
 ARRIS_ALWAYS_INLINE auto from_bits(const L& v) {
   return (typename Wide<sizeof(L)>::Double)v;
@@ -105,7 +116,8 @@ inline int widest_bytes() {
     const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
                     __builtin_cpu_supports("popcnt") && __builtin_cpu_supports("fma");
     const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                    __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+                    __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512vl");
     return v4 ? 64 : v3 ? 32 : 16;
   }();
   return bytes;

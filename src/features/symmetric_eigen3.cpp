@@ -5,7 +5,9 @@
 namespace arris {
 namespace {
 
-Vector3 scaled(const Vector3& v, double by) { return {v[0] * by, v[1] * by, v[2] * by}; }
+Vector3 scaled(const Vector3& v, double by) {
+  return {v[0] * by, v[1] * by, v[2] * by};
+}
 
 /// Unit vector in the kernel of a - value * I, where `value` is well apart from the other two.
 Vector3 kernel_vector(const SymmetricMatrix<double>& a, double value) {

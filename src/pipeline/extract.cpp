@@ -9,6 +9,7 @@
 #include "core/memory_budget.h"
 #include "core/parallel.h"
 #include "core/process_memory.h"
+#include "core/text.h"
 #include "io/point_source.h"
 #include "io/point_writer.h"
 #include "merge/result_spool.h"
@@ -122,10 +123,12 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
   const std::vector<std::filesystem::path> paths = io::expand_inputs(request.inputs);
   refuse_bad_outputs(request, paths);
   io::InputSet inputs(paths);
+  for (const io::SourceInfo& source : inputs.sources()) {
+    for (const io::Problem& problem : source.problems) sink.warning(problem.code, printable(source.path.string()) + ": " + problem.text);
+  }
   std::vector<std::unique_ptr<io::KeptPointWriter>> writers;
   for (const std::filesystem::path& output : request.outputs) {
     writers.push_back(io::create_kept_point_writer(output, inputs, contour_columns(), {request.overwrite}));
-    for (const std::string& warning : writers.back()->warnings()) sink.warning("not-carried", warning);
     report.outputs.push_back(output.string());
   }
 
@@ -152,7 +155,10 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     release_free_memory();
   }
   gather_points(inputs, request, plan.liu, results, writers, report, sink, cancel);
-  for (const auto& writer : writers) writer->commit();
+  for (const auto& writer : writers) {
+    writer->commit();
+    for (const std::string& warning : writer->warnings()) sink.warning("not-carried", warning);
+  }
   watch.lap("write");
 
   if (request.hash_inputs) {

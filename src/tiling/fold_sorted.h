@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/lattice.h"
-#include "features/tile_points.h"
+#include "core/tile_points.h"
 
 namespace arris::tiling {
 

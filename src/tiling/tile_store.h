@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/lattice.h"
-#include "features/tile_points.h"
+#include "core/tile_points.h"
 #include "tiling/tile_plan.h"
 
 namespace arris::tiling {

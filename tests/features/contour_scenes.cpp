@@ -14,7 +14,9 @@ constexpr double kPi = 3.14159265358979323846;
 
 class Builder {
  public:
-  explicit Builder(const Sampling& sampling) : sampling_(sampling), random_(sampling.seed) { scene_.spacing = sampling.spacing; }
+  explicit Builder(const Sampling& sampling) : sampling_(sampling), random_(sampling.seed) {
+    scene_.spacing = sampling.spacing;
+  }
 
   /// Samples the rectangle [0, width] x [0, height] where keep(u, v) holds, placed by at(u, v).
   void surface(double width, double height, const std::function<bool(double, double)>& keep,
@@ -51,7 +53,9 @@ class Builder {
     });
   }
   void circle(double radius, double z) {
-    curve(2.0 * kPi * radius, [&](double t) { return Point{radius * std::cos(t / radius), radius * std::sin(t / radius), z}; });
+    curve(2.0 * kPi * radius, [&](double t) {
+      return Point{radius * std::cos(t / radius), radius * std::sin(t / radius), z};
+    });
   }
 
   Scene take() { return std::move(scene_); }
@@ -62,7 +66,9 @@ class Builder {
   Scene scene_;
 };
 
-bool everywhere(double, double) { return true; }
+bool everywhere(double, double) {
+  return true;
+}
 
 }  // namespace
 
@@ -75,17 +81,25 @@ Scene block_scene(const Sampling& sampling) {
   for (const double sign : {-1.0, 1.0}) {
     const double z = sign * kHalfHeight;
     const double cap = sign * (kHalfHeight + kCylinder);
-    b.surface(2 * kHalf, 2 * kHalf, [&](double u, double v) { return std::hypot(u - kHalf, v - kHalf) > kRadius; },
-              [&](double u, double v) { return Point{u - kHalf, v - kHalf, z}; });
-    b.surface(2 * kRadius, 2 * kRadius, [&](double u, double v) { return std::hypot(u - kRadius, v - kRadius) < kRadius; },
-              [&](double u, double v) { return Point{u - kRadius, v - kRadius, cap}; });
+    b.surface(
+        2 * kHalf, 2 * kHalf, [&](double u, double v) { return std::hypot(u - kHalf, v - kHalf) > kRadius; },
+        [&](double u, double v) {
+          return Point{u - kHalf, v - kHalf, z};
+        });
+    b.surface(
+        2 * kRadius, 2 * kRadius, [&](double u, double v) { return std::hypot(u - kRadius, v - kRadius) < kRadius; },
+        [&](double u, double v) {
+          return Point{u - kRadius, v - kRadius, cap};
+        });
     b.surface(2 * kPi * kRadius, kCylinder, everywhere, [&](double u, double v) {
       return Point{kRadius * std::cos(u / kRadius), kRadius * std::sin(u / kRadius), z + sign * v};
     });
-    b.surface(2 * kHalf, 2 * kHalfHeight, everywhere,
-              [&](double u, double v) { return Point{u - kHalf, sign * kHalf, v - kHalfHeight}; });
-    b.surface(2 * kHalf, 2 * kHalfHeight, everywhere,
-              [&](double u, double v) { return Point{sign * kHalf, u - kHalf, v - kHalfHeight}; });
+    b.surface(2 * kHalf, 2 * kHalfHeight, everywhere, [&](double u, double v) {
+      return Point{u - kHalf, sign * kHalf, v - kHalfHeight};
+    });
+    b.surface(2 * kHalf, 2 * kHalfHeight, everywhere, [&](double u, double v) {
+      return Point{sign * kHalf, u - kHalf, v - kHalfHeight};
+    });
     b.circle(kRadius, z);
     b.circle(kRadius, cap);
     for (const double other : {-1.0, 1.0}) {
@@ -102,8 +116,11 @@ Scene plates_scene(const Sampling& sampling, double gap) {
   const double hole = 12.0 * sampling.spacing;
   Builder b(sampling);
   for (const double z : {0.0, gap * sampling.spacing}) {
-    b.surface(2 * half, 2 * half, [&](double u, double v) { return std::hypot(u - half, v - half) > hole; },
-              [&](double u, double v) { return Point{u - half, v - half, z}; });
+    b.surface(
+        2 * half, 2 * half, [&](double u, double v) { return std::hypot(u - half, v - half) > hole; },
+        [&](double u, double v) {
+          return Point{u - half, v - half, z};
+        });
     b.circle(hole, z);
     for (const double sign : {-1.0, 1.0}) {
       b.segment({-half, sign * half, z}, {half, sign * half, z});
@@ -118,7 +135,8 @@ TilePoints tile_of(const Scene& scene, double step) {
   TilePoints tile;
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
     const Point& p = scene.points[i];
-    const LatticePoint at{static_cast<std::int32_t>(std::lround(p[0] / step)), static_cast<std::int32_t>(std::lround(p[1] / step)),
+    const LatticePoint at{static_cast<std::int32_t>(std::lround(p[0] / step)),
+                          static_cast<std::int32_t>(std::lround(p[1] / step)),
                           static_cast<std::int32_t>(std::lround(p[2] / step))};
     const auto [found, fresh] = entry_of.try_emplace(at, static_cast<std::uint32_t>(tile.positions.size()));
     if (fresh) {
@@ -172,7 +190,8 @@ class Buckets {
 double share_within(const std::vector<Point>& of, const std::vector<Point>& others, double distance) {
   if (of.empty()) return 0.0;
   const Buckets buckets(others, distance);
-  const auto hits = std::count_if(of.begin(), of.end(), [&](const Point& p) { return buckets.any_within(p, distance); });
+  const auto hits =
+      std::count_if(of.begin(), of.end(), [&](const Point& p) { return buckets.any_within(p, distance); });
   return static_cast<double>(hits) / static_cast<double>(of.size());
 }
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/tile_points.h"
 #include "features/contour_record.h"
-#include "features/tile_points.h"
 
 namespace arris::test {
 
@@ -21,13 +21,13 @@ struct Scene {
 /// How a surface is sampled.
 struct Sampling {
   double spacing = 0.25;
-  double noise = 0.0;        ///< Standard deviation of isotropic Gaussian noise, in spacings.
-  bool random = false;       ///< Uniformly random instead of a jittered grid (half a spacing of jitter in all).
+  double noise = 0.0;   ///< Standard deviation of isotropic Gaussian noise, in spacings.
+  bool random = false;  ///< Uniformly random instead of a jittered grid (half a spacing of jitter in all).
   std::uint64_t seed = 1;
 };
 
-/// Liu's Block: a box of 24 x 24 x 12 m with a closed cylinder of 14 m diameter and 6 m height above and below. Contours: the
-/// twelve edges of the box, two concave circles where cylinder and box meet, two rims.
+/// Liu's Block: a box of 24 x 24 x 12 m with a closed cylinder of 14 m diameter and 6 m height above and below.
+/// Contours: the twelve edges of the box, two concave circles where cylinder and box meet, two rims.
 Scene block_scene(const Sampling& sampling);
 
 /// Two parallel square plates of 60 x 60 spacings with a round hole, `gap` spacings apart. Contours: all borders.
@@ -42,8 +42,8 @@ struct Score {
   double f1() const { return precision + recall > 0.0 ? 2.0 * precision * recall / (precision + recall) : 0.0; }
 };
 
-/// Liu's protocol: a detection is right if a contour is within `tolerance`; recall is the share of contour samples with a detection
-/// within it. `classes` selects records.
+/// Liu's protocol: a detection is right if a contour is within `tolerance`; recall is the share of contour samples with
+/// a detection within it. `classes` selects records.
 Score score(const Scene& scene, const std::vector<ContourRecord>& records, std::uint8_t classes, double tolerance);
 
 }  // namespace arris::test

@@ -64,11 +64,17 @@ TEST(AzimuthGap, FullRing_IsNotBoundary) {
   EXPECT_NEAR(ring(40).boundary_deg, 45.0, 1e-9);
 }
 
-TEST(AzimuthGap, GapAcrossZero_IsFound) { EXPECT_NEAR(Ring({80, 130, 190, 240, 280})(120).boundary_deg, 160.0, 1e-9); }
+TEST(AzimuthGap, GapAcrossZero_IsFound) {
+  EXPECT_NEAR(Ring({80, 130, 190, 240, 280})(120).boundary_deg, 160.0, 1e-9);
+}
 
-TEST(AzimuthGap, RightAngle_ReachesARightAngle) { EXPECT_NEAR(Ring({0, 90, 180, 270})(90).boundary_deg, 90.0, 1e-9); }
+TEST(AzimuthGap, RightAngle_ReachesARightAngle) {
+  EXPECT_NEAR(Ring({0, 90, 180, 270})(90).boundary_deg, 90.0, 1e-9);
+}
 
-TEST(AzimuthGap, TwoAzimuths_AreNoEvidence) { EXPECT_EQ(Ring({0, 10})(120).boundary_deg, 0.0); }
+TEST(AzimuthGap, TwoAzimuths_AreNoEvidence) {
+  EXPECT_EQ(Ring({0, 10})(120).boundary_deg, 0.0);
+}
 
 TEST(AzimuthGap, NeighboursAboveTheQuery_HaveNoAzimuth) {
   Ring ring({0, 120, 240, 10});
@@ -82,7 +88,7 @@ TEST(AzimuthGap, SecondLayerFillsTheGap_IsWeakBoundary) {
   const Ring ring({0, 45, 90, 135, 180}, {200, 230, 270, 300, 340});
   const GapResult bracket = ring(120);
   EXPECT_EQ(bracket.boundary_deg, 0.0);
-  EXPECT_NEAR(bracket.weak_deg, 180.0, 1e-9);  // Between the near neighbours at 180 and 360.
+  EXPECT_NEAR(bracket.weak_deg, 180.0, 1e-9);                     // Between the near neighbours at 180 and 360.
   EXPECT_NEAR(ring(120, GapSpan::kInner).weak_deg, 140.0, 1e-9);  // From 200 to 340.
   EXPECT_EQ(ring(150, GapSpan::kInner).weak_deg, 0.0);
   EXPECT_NEAR(ring(150).weak_deg, 180.0, 1e-9);
@@ -120,7 +126,8 @@ FoldScratch fold_ball(double theta_deg, double r, double pitch, const Eigen::Mat
       for (const double side : {-1.0, 1.0}) {
         if (out == 0.0 && side > 0.0) continue;
         const Eigen::Vector3d p = rotation * Eigen::Vector3d(along, side * out * std::sin(half), out * std::cos(half));
-        s.members.push_back({p[0], p[1], p[2], p.squaredNorm(), s.members.size(), static_cast<std::uint32_t>(s.members.size())});
+        s.members.push_back(
+            {p[0], p[1], p[2], p.squaredNorm(), s.members.size(), static_cast<std::uint32_t>(s.members.size())});
       }
     }
   }
@@ -224,7 +231,8 @@ std::vector<double> distances_by_quaternion(const std::vector<BallMember>& membe
   if (size > 1e-12) {
     const double half = 0.5 * std::acos(std::min(1.0, e1[2]));
     // The rotation that takes e1 to z is by -phi about u.
-    r = Eigen::Quaterniond(std::cos(half), -std::sin(half) * u[0] / size, -std::sin(half) * u[1] / size, -std::sin(half) * u[2] / size)
+    r = Eigen::Quaterniond(std::cos(half), -std::sin(half) * u[0] / size, -std::sin(half) * u[1] / size,
+                           -std::sin(half) * u[2] / size)
             .toRotationMatrix();
   }
   std::vector<Eigen::Vector2d> flat;
@@ -241,7 +249,8 @@ std::vector<double> distances_by_quaternion(const std::vector<BallMember>& membe
   }
   const Eigen::Vector2d s = (flat[b] - flat[a]).normalized();
   std::vector<double> distances;
-  for (const Eigen::Vector2d& p : flat) distances.push_back(std::fabs(s[0] * (p - flat[a])[1] - s[1] * (p - flat[a])[0]));
+  for (const Eigen::Vector2d& p : flat)
+    distances.push_back(std::fabs(s[0] * (p - flat[a])[1] - s[1] * (p - flat[a])[0]));
   return distances;
 }
 
@@ -249,8 +258,9 @@ TEST(FoldTest, DirectProjection_AgreesWithTheQuaternionRoute) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   for (int round = 0; round < 50; ++round) {
-    const Eigen::Matrix3d turn =
-        Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
+    const Eigen::Matrix3d turn = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+                                     .normalized()
+                                     .toRotationMatrix();
     FoldScratch s = fold_ball(95.0, 50.0, 7.0, turn);
     for (BallMember& m : s.members) {
       m.dx += 0.5 * normal(random);

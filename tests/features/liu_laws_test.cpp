@@ -18,8 +18,8 @@
 namespace arris {
 
 void PrintTo(const ContourRecord& r, std::ostream* out) {
-  *out << "{id " << r.id << " classes " << int{r.classes} << " votes " << r.votes << " gap " << r.gap_deg << " strength "
-       << r.fold_strength << " angle " << r.fold_angle_deg << "}";
+  *out << "{id " << r.id << " classes " << int{r.classes} << " votes " << r.votes << " gap " << r.gap_deg
+       << " strength " << r.fold_strength << " angle " << r.fold_angle_deg << "}";
 }
 
 namespace {
@@ -79,7 +79,9 @@ void expect_equal(const TileContours& a, const TileContours& b) {
   }
 }
 
-TileContours run(const TilePoints& tile, const LiuParameters& p) { return extract_liu(tile, kMillimetres, p); }
+TileContours run(const TilePoints& tile, const LiuParameters& p) {
+  return extract_liu(tile, kMillimetres, p);
+}
 
 RC_GTEST_PROP(LiuMethod, AnyCloud_EqualsReference, ()) {
   const Cloud cloud = any_cloud(any<std::size_t>(1, 500));
@@ -103,7 +105,8 @@ RC_GTEST_PROP(LiuMethod, WiderArithmetic_ChangesNothing, ()) {
   for (const auto narrowest : {LiuSwitches::Arithmetic::kDouble, LiuSwitches::Arithmetic::kInt64}) {
     LiuSwitches switches;
     switches.narrowest = narrowest;
-    expect_equal(run(tile, cloud.parameters), extract_liu_with(tile, kMillimetres, cloud.parameters, nullptr, switches));
+    expect_equal(run(tile, cloud.parameters),
+                 extract_liu_with(tile, kMillimetres, cloud.parameters, nullptr, switches));
   }
 }
 
@@ -119,9 +122,11 @@ RC_GTEST_PROP(LiuMethod, Translation_ChangesNothing, ()) {
   };
   const std::int64_t by[3] = {shift(0), shift(1), shift(2)};
   for (LatticePoint& p : moved) {
-    p = {static_cast<std::int32_t>(p.x + by[0]), static_cast<std::int32_t>(p.y + by[1]), static_cast<std::int32_t>(p.z + by[2])};
+    p = {static_cast<std::int32_t>(p.x + by[0]), static_cast<std::int32_t>(p.y + by[1]),
+         static_cast<std::int32_t>(p.z + by[2])};
   }
-  expect_equal(run(tile_of(cloud.positions, cloud.seed), cloud.parameters), run(tile_of(moved, cloud.seed), cloud.parameters));
+  expect_equal(run(tile_of(cloud.positions, cloud.seed), cloud.parameters),
+               run(tile_of(moved, cloud.seed), cloud.parameters));
 }
 
 RC_GTEST_PROP(LiuMethod, OrderOfEntries_ChangesNothing, ()) {

@@ -53,7 +53,8 @@ TEST_P(PlateBoundaries, Defaults_ReachTheBar) {
   EXPECT_GE(found.f1(), GetParam().least_f1) << "precision " << found.precision << " recall " << found.recall;
 }
 
-INSTANTIATE_TEST_SUITE_P(Noise, PlateBoundaries, testing::Values(Case{0.0, 0.975}, Case{0.12, 0.965}, Case{0.2, 0.925}));
+INSTANTIATE_TEST_SUITE_P(Noise, PlateBoundaries,
+                         testing::Values(Case{0.0, 0.975}, Case{0.12, 0.965}, Case{0.2, 0.925}));
 
 TEST(PlainSurface, Interior_HasNoContours) {
   // A plate alone: nothing is found away from its borders, neither folds nor boundaries.

@@ -45,7 +45,8 @@ class Reference {
       contours.records.push_back(found->second);
       contours.records.back().id = id;
     }
-    std::sort(contours.records.begin(), contours.records.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+    std::sort(contours.records.begin(), contours.records.end(),
+              [](const auto& a, const auto& b) { return a.id < b.id; });
     return contours;
   }
 
@@ -238,7 +239,8 @@ class Reference {
     if (cf2 < p_.cf2) return;
     std::vector<std::size_t> order(n);
     for (std::size_t j = 0; j < n; ++j) order[j] = j;
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) { return distance[x] > distance[y]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t x, std::size_t y) { return distance[x] > distance[y]; });
     ContourRecord record;
     record.classes = kFold;
     record.votes = 1;

@@ -17,7 +17,9 @@ namespace {
 using test::random_positions;
 using test::Shape;
 
-PointTree tree_of(const TilePoints& tile) { return {tile.positions, tile.ids}; }
+PointTree tree_of(const TilePoints& tile) {
+  return {tile.positions, tile.ids};
+}
 
 TEST(PointTree, EveryEntry_IsInOneBucketInsideItsBox) {
   for (const std::size_t points : {1, 2, 33, 1000, 4097}) {
@@ -116,7 +118,9 @@ TYPED_TEST(Kernels, Nearest_AgreeWithSortingAll) {
             query.guess_d2 = static_cast<TypeParam>(guess);
             select_nearest(tree, candidates, query, scratch, found);
             std::size_t expected = 0;
-            while (expected < k && expected < sorted.size() && sorted[expected].first <= static_cast<std::uint64_t>(most)) ++expected;
+            while (expected < k && expected < sorted.size() &&
+                   sorted[expected].first <= static_cast<std::uint64_t>(most))
+              ++expected;
             ASSERT_EQ(found.count, expected);
             for (std::size_t i = 0; i < expected; ++i) {
               ASSERT_EQ(found.d2[i], static_cast<double>(sorted[i].first));
@@ -145,7 +149,8 @@ TYPED_TEST(Kernels, BallMoments_AreExact) {
     ASSERT_TRUE(candidates.gather(tree, box, radius));
     ASSERT_TRUE(ball_sums_are_exact<TypeParam>(radius, candidates.count));
     const auto radius2 = static_cast<std::uint64_t>(radius * radius);
-    BallQuery<TypeParam> ball{static_cast<TypeParam>(centre.x - candidates.origin[0]), static_cast<TypeParam>(centre.y - candidates.origin[1]),
+    BallQuery<TypeParam> ball{static_cast<TypeParam>(centre.x - candidates.origin[0]),
+                              static_cast<TypeParam>(centre.y - candidates.origin[1]),
                               static_cast<TypeParam>(centre.z - candidates.origin[2]), static_cast<TypeParam>(radius2)};
     std::int64_t n = 0;
     std::int64_t sums[9] = {};
@@ -196,7 +201,8 @@ TEST(LocalSpacing, RegularGrid_IsThePitch) {
   found.reserve(30);
   for (std::size_t i = 0; i < candidates.count; ++i) {
     if (std::fabs(candidates.x[i]) > 100 || std::fabs(candidates.y[i]) > 100) continue;
-    select_nearest(tree, candidates, {candidates.x[i], candidates.y[i], candidates.z[i], 30, 1e7, 90000.0}, scratch, found);
+    select_nearest(tree, candidates, {candidates.x[i], candidates.y[i], candidates.z[i], 30, 1e7, 90000.0}, scratch,
+                   found);
     const LocalSpacing spacing = local_spacing(found);
     EXPECT_NEAR(spacing.nearest, 100.0 * (4 + 2 * std::sqrt(2.0)) / 6.0, 1e-9);
     EXPECT_NEAR(spacing.density, 100.0, 4.0);

@@ -78,15 +78,18 @@ Eigen::Matrix3d matrix(const SymmetricMatrix<double>& a) {
 /// Random rotations of given eigenvalues.
 SymmetricMatrix<double> rotated(const Eigen::Vector3d& values, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
-  const Eigen::Matrix3d q = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized().toRotationMatrix();
+  const Eigen::Matrix3d q = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+                                .normalized()
+                                .toRotationMatrix();
   const Eigen::Matrix3d m = q * values.asDiagonal() * q.transpose();
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)};
 }
 
 TEST(SymmetricEigen3, AnyMatrix_AgreesWithEigen) {
   std::mt19937_64 random(5);
-  const Eigen::Vector3d spectra[] = {{3, 2, 1},    {1, 1, 0},       {1, 1, 1e-9}, {1, 0.2, 0},   {1, 1e-3, 1e-6}, {1, 0, 0},
-                                     {1, 1, 1},    {1, 0.999999, 0.1}, {1e6, 1e5, 1},  {5, 4.9999, 0}, {1, 1e-9, 0}};
+  const Eigen::Vector3d spectra[] = {{3, 2, 1},       {1, 1, 0},      {1, 1, 1e-9}, {1, 0.2, 0},
+                                     {1, 1e-3, 1e-6}, {1, 0, 0},      {1, 1, 1},    {1, 0.999999, 0.1},
+                                     {1e6, 1e5, 1},   {5, 4.9999, 0}, {1, 1e-9, 0}};
   for (const Eigen::Vector3d& spectrum : spectra) {
     for (int i = 0; i < 200; ++i) {
       const SymmetricMatrix<double> a = rotated(spectrum, random);
@@ -243,7 +246,8 @@ TEST(PlanarDiameter, RandomSets_AgreeWithAllPairs) {
     }
     // All pairs in canonical order: the first of the longest.
     std::vector<PlanarPoint> sorted = points;
-    std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.d2 != b.d2 ? a.d2 < b.d2 : a.id < b.id; });
+    std::sort(sorted.begin(), sorted.end(),
+              [](const auto& a, const auto& b) { return a.d2 != b.d2 ? a.d2 < b.d2 : a.id < b.id; });
     Diameter expected;
     for (std::size_t a = 0; a < sorted.size(); ++a) {
       for (std::size_t b = a + 1; b < sorted.size(); ++b) {

@@ -9,7 +9,8 @@
 namespace arris::test {
 
 std::string name(Shape shape) {
-  constexpr const char* kNames[] = {"plane", "fold", "grid", "grid fold", "volume", "collinear", "two layers", "density step", "clusters"};
+  constexpr const char* kNames[] = {"plane",     "fold",       "grid",         "grid fold", "volume",
+                                    "collinear", "two layers", "density step", "clusters"};
   return kNames[static_cast<int>(shape)];
 }
 

@@ -5,25 +5,26 @@
 #include <string>
 #include <vector>
 
-#include "features/tile_points.h"
+#include "core/tile_points.h"
 
 namespace arris::test {
 
 enum class Shape {
-  kPlane,          ///< Noisy plane, random normal.
-  kFold,           ///< Two noisy half planes.
-  kGrid,           ///< Exact square grid on a plane z = 0: ties everywhere.
-  kGridFold,       ///< Two exact grids at a right angle.
-  kVolume,         ///< Random points in a box.
-  kCollinear,      ///< Points on a line.
-  kTwoLayers,      ///< Two parallel planes.
-  kDensityStep,    ///< A hundred times denser on one side.
-  kClusters,       ///< Far apart clusters and single points.
+  kPlane,        ///< Noisy plane, random normal.
+  kFold,         ///< Two noisy half planes.
+  kGrid,         ///< Exact square grid on a plane z = 0: ties everywhere.
+  kGridFold,     ///< Two exact grids at a right angle.
+  kVolume,       ///< Random points in a box.
+  kCollinear,    ///< Points on a line.
+  kTwoLayers,    ///< Two parallel planes.
+  kDensityStep,  ///< A hundred times denser on one side.
+  kClusters,     ///< Far apart clusters and single points.
   kLast = kClusters
 };
 std::string name(Shape shape);
 
-/// About `points` points with extents of roughly `extent` lattice steps around the origin; some positions are drawn twice.
+/// About `points` points with extents of roughly `extent` lattice steps around the origin; some positions are drawn
+/// twice.
 std::vector<LatticePoint> random_positions(Shape shape, std::size_t points, double extent, std::uint64_t seed);
 
 /// Folds duplicates; ids are shuffled numbers. The tile owns and covers everything.
