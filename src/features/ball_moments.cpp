@@ -6,13 +6,6 @@
 namespace arris {
 namespace {
 
-template <class V>
-ARRIS_ALWAYS_INLINE double lane_sum(const V& v) {
-  double sum = 0.0;
-  for (std::size_t lane = 0; lane < sizeof(V) / sizeof(v[0]); ++lane) sum += static_cast<double>(v[lane]);
-  return sum;
-}
-
 struct SumMembers {
   template <int Bytes, class T>
   static ARRIS_ALWAYS_INLINE void run(const CandidateSet<T>& c, const BallQuery<T>& ball, BallMoments& out) {
@@ -38,8 +31,8 @@ struct SumMembers {
       yz += dy * dz;
       zz += dz * dz;
     }
-    out = {lane_sum(n),  lane_sum(x),  lane_sum(y),  lane_sum(z),  lane_sum(xx),
-           lane_sum(xy), lane_sum(xz), lane_sum(yy), lane_sum(yz), lane_sum(zz)};
+    out = {simd::lane_sum(n),  simd::lane_sum(x),  simd::lane_sum(y),  simd::lane_sum(z),  simd::lane_sum(xx),
+           simd::lane_sum(xy), simd::lane_sum(xz), simd::lane_sum(yy), simd::lane_sum(yz), simd::lane_sum(zz)};
   }
 };
 

@@ -28,6 +28,40 @@ struct RunningMoments {
   }
 };
 
+/// The sums over the first `count` neighbours (a multiple of eight), which must be exact: lanes change their order.
+struct SumFirst {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(const Neighbours& neighbours, std::size_t count, RunningMoments& m) {
+    using V = typename simd::Wide<Bytes>::Double;
+    V x{}, y{}, z{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+    for (std::size_t i = 0; i < count; i += Bytes / sizeof(double)) {
+      const auto dx = simd::load<V>(neighbours.dx.data() + i);
+      const auto dy = simd::load<V>(neighbours.dy.data() + i);
+      const auto dz = simd::load<V>(neighbours.dz.data() + i);
+      x += dx;
+      y += dy;
+      z += dz;
+      xx += dx * dx;
+      xy += dx * dy;
+      xz += dx * dz;
+      yy += dy * dy;
+      yz += dy * dz;
+      zz += dz * dz;
+    }
+    m = {simd::lane_sum(x),  simd::lane_sum(y),  simd::lane_sum(z),  simd::lane_sum(xx), simd::lane_sum(xy),
+         simd::lane_sum(xz), simd::lane_sum(yy), simd::lane_sum(yz), simd::lane_sum(zz)};
+  }
+};
+
+/// Starts the sums with as many of the first k_min neighbours as whole vectors hold; returns how many.
+int start_moments(const Neighbours& neighbours, int k_min, RunningMoments& moments) {
+  constexpr double kExactSums = 9007199254740992.0;  // 2^53
+  if (neighbours.d2[static_cast<std::size_t>(k_min - 1)] * k_min >= kExactSums) return 0;
+  const int count = k_min / 8 * 8;
+  simd::dispatch<SumFirst>(neighbours, static_cast<std::size_t>(count), moments);
+  return count;
+}
+
 template <class V>
 ARRIS_ALWAYS_INLINE V entropy_term(const V& a) {
   const V positive = a > 1e-300 ? a : a - a + 1e-300;  // 0 ln 0 = 0.
@@ -140,7 +174,8 @@ ScaleChoice choose_scale(const Neighbours& neighbours, const ScaleRange& range) 
   ScaleChoice planar_choice;
   ScaleChoice any_choice;
   RunningMoments moments;
-  int added = 0;
+  if (last < range.k_min) return {};
+  int added = start_moments(neighbours, range.k_min, moments);
   for (int k = range.k_min; k <= last;) {
     Batch batch;
     int sizes[kLanes];

@@ -109,19 +109,22 @@ struct CountSmaller {
   }
 };
 
+/// Returns whether any two are equally far.
 template <class T>
-void sort_by_rank(NearestScratch<T>& s, std::size_t n) {
+bool sort_by_rank(NearestScratch<T>& s, std::size_t n) {
   for (std::size_t i = n; i < simd::padded(n); ++i) s.d2[i] = std::numeric_limits<T>::infinity();
   const T* values = s.d2.data();
   simd::dispatch<CountSmaller>(values, n, s.rank.data());
   constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
   std::fill_n(s.sorted.begin(), n, kFree);
+  bool ties = false;
   for (std::size_t i = 0; i < n; ++i) {
     std::size_t place = static_cast<std::size_t>(s.rank[i]);
-    while (s.sorted[place] != kFree) ++place;  // Equal distances: any order here, by id afterwards.
+    for (; s.sorted[place] != kFree; ++place) ties = true;  // Any order here, by id afterwards.
     s.sorted[place] = s.candidate[i];
     s.sorted_d2[place] = s.d2[i];
   }
+  return ties;
 }
 
 template <class T>
@@ -185,16 +188,15 @@ void select_nearest(const PointTree& tree, const CandidateSet<T>& candidates, co
     limit = next >= static_cast<double>(query.max_d2) ? query.max_d2 : static_cast<T>(next);
   }
   const std::size_t wanted = std::min(n, query.k + 1);  // With the query itself, which comes first.
+  bool ties = true;
   if constexpr (std::is_same_v<T, std::int64_t>) {
     sort_by_comparison(scratch, n, wanted);
+  } else if (n <= kMostRanked) {
+    ties = sort_by_rank(scratch, n);
   } else {
-    if (n <= kMostRanked) {
-      sort_by_rank(scratch, n);
-    } else {
-      sort_by_comparison(scratch, n, wanted);
-    }
+    sort_by_comparison(scratch, n, wanted);
   }
-  order_ties(tree, candidates, scratch, n, wanted);
+  if (ties) order_ties(tree, candidates, scratch, n, wanted);
   found.count = wanted - 1;
   for (std::size_t i = 0; i < found.count; ++i) {
     const std::uint32_t c = scratch.sorted[i + 1];

@@ -76,6 +76,14 @@ ARRIS_ALWAYS_INLINE void store(T* to, const V& v) {
   std::memcpy(to, &v, sizeof(V));
 }
 
+/// In the order of the lanes.
+template <class V>
+ARRIS_ALWAYS_INLINE double lane_sum(const V& v) {
+  double sum = 0.0;
+  for (std::size_t lane = 0; lane < sizeof(V) / sizeof(v[0]); ++lane) sum += static_cast<double>(v[lane]);
+  return sum;
+}
+
 ARRIS_ALWAYS_INLINE double square_root(double v) {
   return std::sqrt(v);
 }
@@ -109,7 +117,7 @@ ARRIS_ALWAYS_INLINE L shift_right_unsigned(const L& v, int by) {
   return (L)((typename Wide<sizeof(L)>::Unsigned)v >> static_cast<std::uint64_t>(by));
 }
 
-/// What the processor offers: 64 with AVX-512, 32 with AVX2, else 16.
+/// What the processor offers: 64 with AVX-512, 32 with AVX2, else 16. ARRIS_KERNEL_BYTES, for tests, asks for less.
 inline int widest_bytes() {
 #if ARRIS_X86_KERNELS
   static const int bytes = [] {
@@ -118,7 +126,12 @@ inline int widest_bytes() {
     const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                     __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
                     __builtin_cpu_supports("avx512vl");
-    return v4 ? 64 : v3 ? 32 : 16;
+    const int widest = v4 ? 64 : v3 ? 32 : 16;
+#if defined(ARRIS_KERNEL_BYTES)
+    return widest < ARRIS_KERNEL_BYTES ? widest : ARRIS_KERNEL_BYTES;
+#else
+    return widest;
+#endif
   }();
   return bytes;
 #else
