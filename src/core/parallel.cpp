@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -16,18 +17,51 @@
 
 namespace arris {
 
+#if defined(__SANITIZE_THREAD__)
+// ThreadSanitizer cannot see the synchronisation inside of Debian's libtbb and reports races there. In its builds loops
+// run on plain threads, so that races of our own show, and TBB (which OpenVDB uses itself) stays on the calling thread.
+namespace {
+tbb::global_control& one_tbb_thread() {
+  static tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
+  return control;
+}
+const tbb::global_control& applied_at_start = one_tbb_thread();
+std::atomic<int> loop_threads{0};  // 0: no limit is alive.
+}  // namespace
+
+struct ThreadLimit::Impl {
+  explicit Impl(int threads) { loop_threads = std::max(1, threads); }
+  ~Impl() { loop_threads = 0; }
+};
+
+void parallel_for_chunks(std::size_t count, std::size_t grain,
+                         const std::function<void(std::size_t begin, std::size_t end)>& body) {
+  grain = std::max<std::size_t>(grain, 1);
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr error;
+  const auto work = [&] {
+    for (std::size_t begin = next.fetch_add(grain); begin < count; begin = next.fetch_add(grain)) {
+      try {
+        body(begin, std::min(count, begin + grain));
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!error) error = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 1; i < (loop_threads > 0 ? loop_threads.load() : 4); ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  if (error) std::rethrow_exception(error);
+}
+#else
 struct ThreadLimit::Impl {
   explicit Impl(int threads)
       : control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(std::max(1, threads))) {}
   tbb::global_control control;
 };
-
-ThreadLimit::ThreadLimit(int threads) : impl_(std::make_unique<Impl>(threads)) {}
-ThreadLimit::~ThreadLimit() = default;
-
-int hardware_threads() {
-  return std::max(1, tbb::info::default_concurrency());
-}
 
 void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body) {
@@ -37,6 +71,14 @@ void parallel_for_chunks(std::size_t count, std::size_t grain,
     tbb::parallel_for(std::size_t{0}, chunks,
                       [&](std::size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); });
   });
+}
+#endif
+
+ThreadLimit::ThreadLimit(int threads) : impl_(std::make_unique<Impl>(threads)) {}
+ThreadLimit::~ThreadLimit() = default;
+
+int hardware_threads() {
+  return std::max(1, tbb::info::default_concurrency());
 }
 
 // Plain threads feed from one queue: a task blocks on the memory budget, and a blocked TBB worker could hold up a loop

@@ -21,7 +21,7 @@ TEST(ExactTilingMatrix, SyntheticBlock_SameBytes) {
 
 TEST(ExactTilingMatrix, SimulatedTown_SameBytes) {
   const TempFolder folder;
-  ASSERT_EQ(run_arris({"synth", "town", "--points", "1500000", "--noise", "2mm", "-o", folder / "scan.las", "--truth",
+  ASSERT_EQ(run_arris({"synth", "town", "--points", "1200000", "--noise", "2mm", "-o", folder / "scan.las", "--truth",
                        folder / "truth.csv"})
                 .exit_code,
             0);
