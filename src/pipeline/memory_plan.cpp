@@ -14,6 +14,7 @@ namespace arris::pipeline {
 namespace {
 
 constexpr std::uint64_t kMiB = 1024 * 1024;
+constexpr std::uint64_t kLeastSpoolBytes = 4 * kMiB;
 /// The survey's counts (bounded by their number of leaves), the read buffers and batches of one input, one writer, and
 /// thread stacks; measured, rounded up.
 constexpr std::uint64_t kPassBytes = 48 * kMiB;
@@ -28,7 +29,7 @@ std::uint64_t fixed_bytes(int threads, std::uint64_t spool_buffer_bytes) {
 }
 
 std::uint64_t spool_buffer_bytes(std::uint64_t budget_bytes) {
-  return std::clamp<std::uint64_t>(budget_bytes / 32, 4 * kMiB, 64 * kMiB);
+  return std::clamp<std::uint64_t>(budget_bytes / 32, kLeastSpoolBytes, 64 * kMiB);
 }
 
 }  // namespace
@@ -40,7 +41,7 @@ std::uint64_t tile_bytes(std::uint64_t points) {
 }
 
 std::uint64_t least_budget_bytes(std::uint64_t points, int threads) {
-  const std::uint64_t needed = fixed_bytes(threads, 4 * kMiB) + tile_bytes(points);
+  const std::uint64_t needed = fixed_bytes(threads, kLeastSpoolBytes) + tile_bytes(points);
   return static_cast<std::uint64_t>(static_cast<double>(needed) / kSafety) + kMiB;
 }
 
@@ -50,6 +51,10 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   plan.spool_buffer_bytes = spool_buffer_bytes(request.budget_bytes);
   plan.fixed_bytes = fixed_bytes(request.threads, plan.spool_buffer_bytes);
   const auto usable = static_cast<std::uint64_t>(kSafety * static_cast<double>(request.budget_bytes));
+  if (usable < plan.fixed_bytes + tile_bytes(kLeastTilePoints)) {  // Short of memory: the least buffer.
+    plan.spool_buffer_bytes = kLeastSpoolBytes;
+    plan.fixed_bytes = fixed_bytes(request.threads, plan.spool_buffer_bytes);
+  }
   if (usable < plan.fixed_bytes + tile_bytes(kLeastTilePoints)) {
     throw BudgetError(fmt::format("--memory {} is too small: this run needs at least {}",
                                   human_bytes(request.budget_bytes),
