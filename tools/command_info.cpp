@@ -23,6 +23,7 @@ using Json = nlohmann::ordered_json;
 struct InfoOptions {
   std::vector<std::string> inputs;
   bool json = false;
+  ToleranceOptions tolerance;
   DisplayOptions display;
 };
 
@@ -35,8 +36,9 @@ struct Counted {
   double spacing = 0.0;
 };
 
-Counted count_points(const std::filesystem::path& path, ProgressSink& progress, const CancelToken& cancel) {
-  io::InputSet inputs({path});
+Counted count_points(const std::filesystem::path& path, io::Tolerance tolerance, ProgressSink& progress,
+                     const CancelToken& cancel) {
+  io::InputSet inputs({path}, tolerance);
   const tiling::Survey survey = tiling::survey_inputs(inputs, {}, progress, cancel);
   Counted counted;
   counted.points = survey.points_in;
@@ -73,7 +75,7 @@ Json to_json(const io::FileSummary& file, const Counted& counted) {
             {"min", counted.min},
             {"max", counted.max},
             {"spacing", counted.spacing},
-            {"crs", file.crs}};
+            {"crs", {{"name", file.crs.name}, {"unit", file.crs.unit}, {"text", file.crs.text}}}};
   json["header"] = Json::object();
   for (const auto& [name, value] : file.header) json["header"][name] = value;
   if (file.claimed_bounds)
@@ -104,7 +106,8 @@ std::string to_text(const io::FileSummary& file, const Counted& counted) {
     text += fmt::format("  max      {:.10g} {:.10g} {:.10g}\n", counted.max[0], counted.max[1], counted.max[2]);
     text += fmt::format("  spacing  about {:.3g}\n", counted.spacing);
   }
-  if (!file.crs.empty()) text += fmt::format("  crs      {}\n", file.crs);
+  if (!file.crs.name.empty())
+    text += fmt::format("  crs      {}{}\n", file.crs.name, file.crs.unit.empty() ? "" : ", unit " + file.crs.unit);
   for (const auto& [name, value] : file.header) text += fmt::format("  {:<24} {}\n", name, value);
   for (const io::AttributeSummary& a : file.attributes) {
     text += fmt::format("  attribute {} ({}){}\n", a.name, a.type, a.description.empty() ? "" : ": " + a.description);
@@ -122,8 +125,8 @@ int run_info(const InfoOptions& o, Session& session) {
   Json json{{"schema", "arris-info/1"}, {"files", Json::array()}};
   std::string text;
   for (const std::filesystem::path& path : io::expand_inputs(o.inputs)) {
-    io::FileSummary file = io::summarize_file(path);
-    const Counted counted = count_points(path, display, session.cancel);
+    io::FileSummary file = io::summarize_file(path, o.tolerance.tolerance());
+    const Counted counted = count_points(path, o.tolerance.tolerance(), display, session.cancel);
     if (box_is_wrong(file, counted))
       file.problems.push_back({"bbox-mismatch", "the bounding box in the header is not that of the points"});
     if (o.json) {
@@ -144,6 +147,7 @@ void add_info(CLI::App& app, Session& session) {
   CLI::App* verb = app.add_subcommand("info", "What files hold: header, counts, extent, spacing, attributes, problems");
   verb->add_option("inputs", o->inputs, "LAS and PLY files, or folders of them")->required();
   verb->add_flag("--json", o->json, "As JSON");
+  add_tolerance_options(*verb, o->tolerance);
   add_display_options(*verb, o->display);
   verb->callback([o, &session] { session.run = [o, &session] { return run_info(*o, session); }; });
 }

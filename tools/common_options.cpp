@@ -30,6 +30,13 @@ void add_display_options(CLI::App& verb, DisplayOptions& options) {
   verb.add_flag("-v,--verbose", options.verbose, "Say more")->excludes(quiet);
 }
 
+void add_tolerance_options(CLI::App& verb, ToleranceOptions& options) {
+  auto* strict = verb.add_flag("--strict", options.strict,
+                               "Refuse files with any problem, also those that are usually reported only");
+  verb.add_flag("--salvage", options.salvage, "Read the whole points of files that are cut short or count no points")
+      ->excludes(strict);
+}
+
 std::uint64_t resolve_memory(const std::string& text, std::string& why) {
   const MachineMemory machine = machine_memory();
   const char* of_what = machine.limited_by_cgroup ? "the control group's limit" : "this machine's memory";

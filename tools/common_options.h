@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "io/point_source.h"
 #include "progress_display.h"
 
 namespace CLI {
@@ -20,6 +21,16 @@ struct DisplayOptions {
   int verbosity() const { return quiet ? -1 : verbose ? 1 : 0; }
 };
 void add_display_options(CLI::App& verb, DisplayOptions& options);
+
+/// How files that do not keep to their format are read.
+struct ToleranceOptions {
+  bool strict = false;
+  bool salvage = false;
+  io::Tolerance tolerance() const {
+    return strict ? io::Tolerance::kStrict : salvage ? io::Tolerance::kSalvage : io::Tolerance::kUsual;
+  }
+};
+void add_tolerance_options(CLI::App& verb, ToleranceOptions& options);
 
 /// The bytes meant by --memory, or 75 % of what the machine offers if the text is empty. `why` says which, for the log.
 std::uint64_t resolve_memory(const std::string& text, std::string& why);

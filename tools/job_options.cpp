@@ -89,6 +89,7 @@ double length_or(const std::string& text, double otherwise) {
 
 void add_job_options(CLI::App& verb, JobOptions& o) {
   verb.add_option("inputs", o.inputs, "LAS and PLY files, or folders of them; one input, in this order")->required();
+  add_tolerance_options(verb, o.tolerance);
   verb.add_option("--method", o.method, "Method")->check(CLI::IsMember({"liu"}))->capture_default_str();
   verb.add_option("--memory", o.memory,
                   "Bound on the memory of the whole process: 8GiB, 512MiB, 60% (default 75% of what there is)");
@@ -107,6 +108,7 @@ void add_job_options(CLI::App& verb, JobOptions& o) {
 pipeline::ExtractRequest to_request(JobOptions& o, const CLI::App& verb) {
   pipeline::ExtractRequest request;
   request.inputs = o.inputs;
+  request.tolerance = o.tolerance.tolerance();
   request.memory_bytes = resolve_memory(o.memory, o.memory_why);
   request.threads = resolve_threads(o.threads);
   request.temp_dir = o.temp_dir.empty() ? std::filesystem::temp_directory_path() : std::filesystem::path(o.temp_dir);

@@ -31,6 +31,7 @@ struct JobOptions {
   bool neighbours_only = false;
   bool no_boundary = false;
   bool no_fold = false;
+  ToleranceOptions tolerance;
   DisplayOptions display;
   std::string memory_why;
 };

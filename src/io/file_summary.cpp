@@ -93,12 +93,10 @@ void add_extra_bytes(const InputFile& file, const LasFile& las, FileSummary& sum
   if (extra.present_bytes > extra.described_bytes) {
     summary.attributes.push_back({"", extra_type_name(0), "", extra.present_bytes - extra.described_bytes});
   }
-  summary.problems.insert(summary.problems.end(), extra.problems.begin(), extra.problems.end());
 }
 
-void summarize_las(FileSummary& summary) {
-  const InputFile file(summary.info.path);
-  const LasFile las = read_las_file(file);
+void summarize_las(const InputFile& file, FileSummary& summary) {
+  const LasFile las = read_las_file(file, summary.info.tolerance);
   add_las_header(las, summary);
   summary.claimed_bounds = WorldExtent{las.header.min, las.header.max};
   add_records(las.vlrs, summary);
@@ -107,8 +105,8 @@ void summarize_las(FileSummary& summary) {
   summary.crs = describe_crs(file, las);
 }
 
-void summarize_ply(FileSummary& summary) {
-  const PlyHeader header = read_ply_header(InputFile(summary.info.path));
+void summarize_ply(const InputFile& file, FileSummary& summary) {
+  const PlyHeader header = read_ply_header(file);
   summary.header.emplace_back("format", header.format_name());
   summary.header.emplace_back("version", printable(header.version, 40));
   for (const std::string& line : header.lines) {
@@ -134,14 +132,18 @@ void summarize_ply(FileSummary& summary) {
 
 }  // namespace
 
-FileSummary summarize_file(const std::filesystem::path& path) {
+FileSummary summarize_file(const std::filesystem::path& path, Tolerance tolerance) {
+  return summarize_file(std::make_shared<const InputFile>(path), tolerance);
+}
+
+FileSummary summarize_file(std::shared_ptr<const InputFile> file, Tolerance tolerance) {
   FileSummary summary;
-  summary.info = open_point_source(path)->info();
+  summary.info = open_point_source(file, tolerance)->info();
   summary.problems = summary.info.problems;
   if (summary.info.format == Format::kLas) {
-    summarize_las(summary);
+    summarize_las(*file, summary);
   } else {
-    summarize_ply(summary);
+    summarize_ply(*file, summary);
   }
   return summary;
 }

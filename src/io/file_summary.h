@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/las_crs.h"
 #include "io/point_source.h"
 #include "io/point_writer.h"
 
@@ -37,12 +38,13 @@ struct FileSummary {
   std::optional<WorldExtent> claimed_bounds;                ///< As the header has it, possibly wrong; PLY has none.
   std::vector<RecordSummary> records;
   std::vector<AttributeSummary> attributes;
-  std::string crs;  ///< WKT, else the citation of the GeoTIFF keys, else "EPSG:n" of these, else empty.
+  CrsSummary crs;
   std::vector<Problem> problems;
 };
 
 /// Reads the structure of a file, no points (PLY files whose vertices lie behind lists are read up to the vertices).
 /// Throws InputError / IoError as open_point_source() does.
-FileSummary summarize_file(const std::filesystem::path& path);
+FileSummary summarize_file(std::shared_ptr<const InputFile> file, Tolerance tolerance = Tolerance::kUsual);
+FileSummary summarize_file(const std::filesystem::path& path, Tolerance tolerance = Tolerance::kUsual);
 
 }  // namespace arris::io

@@ -40,10 +40,22 @@ InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
         fmt::format("{}: is not a regular file; points are read several times, so save them to a file first", name()));
   }
   size_bytes_ = static_cast<std::uint64_t>(status.st_size);
+  modified_ns_ = std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
+}
+
+InputFile::InputFile(std::string name, std::vector<std::byte> bytes)
+    : path_(std::move(name)), memory_(std::move(bytes)), size_bytes_(memory_.size()) {}
+
+std::shared_ptr<const InputFile> InputFile::in_memory(std::string name, std::vector<std::byte> bytes) {
+  return std::shared_ptr<const InputFile>(new InputFile(std::move(name), std::move(bytes)));
 }
 
 InputFile::~InputFile() {
-  ::close(descriptor_);
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void refuse(const InputFile& file, std::uint64_t byte, std::string_view what, std::string_view remedy) {
+  throw InputError(fmt::format("{}: byte {}: {}; {}", file.name(), byte, what, remedy));
 }
 
 std::string InputFile::name() const {
@@ -51,6 +63,12 @@ std::string InputFile::name() const {
 }
 
 std::size_t InputFile::read_some(std::uint64_t offset, std::span<std::byte> bytes) const {
+  if (descriptor_ < 0) {
+    if (offset >= size_bytes_) return 0;
+    const auto there = static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), size_bytes_ - offset));
+    if (there > 0) std::memcpy(bytes.data(), memory_.data() + offset, there);
+    return there;
+  }
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t got =
@@ -66,9 +84,8 @@ std::size_t InputFile::read_some(std::uint64_t offset, std::span<std::byte> byte
 void InputFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
   const std::size_t done = read_some(offset, bytes);
   if (done == bytes.size()) return;
-  throw InputError(
-      fmt::format("{}: ends at byte {}, but had {} bytes when it was opened; it was cut short while being read", name(),
-                  offset + done, size_bytes_));
+  refuse(*this, offset + done, fmt::format("the file ends here, but had {} bytes when it was opened", size_bytes_),
+         "it was cut short while being read: run again when it is complete");
 }
 
 void FileWindow::seek(std::uint64_t offset) {
@@ -85,8 +102,11 @@ bool FileWindow::extend() {
     begin_ = 0;
     end_ = unread;
   }
-  if (unread == buffer_.size()) buffer_.resize(std::min(std::max(kWindowBytes, 2 * unread), kMaxBytes));
   const std::uint64_t left = file_.size_bytes() - (buffer_offset_ + unread);
+  if (unread == buffer_.size()) {
+    const std::uint64_t useful = std::min<std::uint64_t>(unread + left, std::max(kWindowBytes, 2 * unread));
+    buffer_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(useful, kMaxBytes)));
+  }
   const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(left, buffer_.size() - unread));
   file_.read(buffer_offset_ + unread, {buffer_.data() + unread, wanted});
   end_ = unread + wanted;

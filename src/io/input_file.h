@@ -4,17 +4,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace arris::io {
 
-/// Read-only regular file. Its size is taken once, at opening; a file that turns out shorter later was cut short while
-/// we read it, which is an InputError. Failing system calls are IoErrors. Reading is const and thread-safe.
+/// Read-only regular file, or bytes in memory. Its size is taken once, at opening; a file that turns out shorter later
+/// was cut short while we read it, which is an InputError. Failing system calls are IoErrors. Reading is const and
+/// thread-safe.
 class InputFile {
  public:
   explicit InputFile(std::filesystem::path path);
+  /// Bytes that are read like a file; messages call them `name`.
+  static std::shared_ptr<const InputFile> in_memory(std::string name, std::vector<std::byte> bytes);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
@@ -23,6 +28,8 @@ class InputFile {
   /// The path as messages show it.
   std::string name() const;
   std::uint64_t size_bytes() const { return size_bytes_; }
+  /// Time of the last change when the file was opened, nanoseconds since 1970; 0 in memory.
+  std::int64_t modified_ns() const { return modified_ns_; }
 
   /// Reads at `offset` until `bytes` is full or the file ends; returns the bytes read.
   std::size_t read_some(std::uint64_t offset, std::span<std::byte> bytes) const;
@@ -30,10 +37,18 @@ class InputFile {
   void read(std::uint64_t offset, std::span<std::byte> bytes) const;
 
  private:
+  InputFile(std::string name, std::vector<std::byte> bytes);
+
   std::filesystem::path path_;
-  int descriptor_ = -1;
+  int descriptor_ = -1;  ///< -1: the bytes are in memory_.
+  std::vector<std::byte> memory_;
   std::uint64_t size_bytes_ = 0;
+  std::int64_t modified_ns_ = 0;
 };
+
+/// Throws the InputError that every reader gives for content it cannot trust: "<file>: byte <byte>: <what>; <remedy>".
+/// @param byte  where the fault lies; texts of the file must have passed printable().
+[[noreturn]] void refuse(const InputFile& file, std::uint64_t byte, std::string_view what, std::string_view remedy);
 
 /// A window of unread bytes that slides over a file, for records whose length is known only once they have been read.
 class FileWindow {

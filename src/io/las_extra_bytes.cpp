@@ -63,7 +63,8 @@ void read_attributes(ExtraBytes& extra, std::size_t first_offset) {
       extra.problems.push_back(
           {"extra-bytes-type",
            fmt::format("extra-bytes entry {} has the unknown type {}; all extra bytes are taken as undocumented",
-                       at / kExtraBytesEntryBytes + 1, attribute.type)});
+                       at / kExtraBytesEntryBytes + 1, attribute.type),
+           extra.record_begin});
       return;
     }
     attribute.name = field_text(entry + kName, 32);
@@ -77,7 +78,8 @@ void read_attributes(ExtraBytes& extra, std::size_t first_offset) {
     extra.valid = false;
     extra.problems.push_back({"extra-bytes-mismatch",
                               fmt::format("{} extra bytes are described, {} are present; all are taken as undocumented",
-                                          extra.described_bytes, extra.present_bytes)});
+                                          extra.described_bytes, extra.present_bytes),
+                              extra.record_begin});
   }
 }
 
@@ -107,10 +109,12 @@ ExtraBytes read_extra_bytes(const InputFile& file, const LasFile& las) {
       std::vector<std::byte> payload = read_payload(file, record, kMaxPayload);
       if (record.payload_bytes % kExtraBytesEntryBytes != 0) {
         extra.whole_entries = false;
-        extra.problems.push_back(
-            {"extra-bytes-length", fmt::format("an extra-bytes record has {} bytes, no multiple of {}",
-                                               record.payload_bytes, kExtraBytesEntryBytes)});
+        extra.problems.push_back({"extra-bytes-length",
+                                  fmt::format("an extra-bytes record has {} bytes, no multiple of {}",
+                                              record.payload_bytes, kExtraBytesEntryBytes),
+                                  record.begin});
       }
+      if (extra.entries.empty()) extra.record_begin = record.begin;
       payload.resize(payload.size() / kExtraBytesEntryBytes * kExtraBytesEntryBytes);
       append(extra.entries, payload);
     }

@@ -35,7 +35,8 @@ struct ExtraBytes {
   /// False if the descriptions cannot be trusted: they claim more bytes than there are or use unknown types. All extra
   /// bytes are then undocumented.
   bool valid = true;
-  bool whole_entries = true;  ///< False if a record's length is no multiple of 192.
+  bool whole_entries = true;       ///< False if a record's length is no multiple of 192.
+  std::uint64_t record_begin = 0;  ///< Offset in the file of the first record with descriptions.
   std::vector<Problem> problems;
 };
 ExtraBytes read_extra_bytes(const InputFile& file, const LasFile& las);

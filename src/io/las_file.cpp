@@ -47,7 +47,8 @@ std::vector<LasVlr> walk_records(const InputFile& file, std::uint64_t begin, std
     if (!header_fits || record.payload_bytes > limit - record.payload || records.size() == kMaxRecords) {
       problems.push_back({extended ? "evlr-overrun" : "vlr-overrun",
                           fmt::format("{} {} of {} at byte {} runs past byte {}; it and what follows it are ignored",
-                                      kind, records.size() + 1, claimed, at, limit)});
+                                      kind, records.size() + 1, claimed, at, limit),
+                          at});
       break;
     }
     records.push_back(std::move(record));
@@ -55,104 +56,54 @@ std::vector<LasVlr> walk_records(const InputFile& file, std::uint64_t begin, std
   return records;
 }
 
-/// Where the points must end at the latest: the next structure that the header points to, if it lies behind their
-/// start.
-std::uint64_t next_structure(const InputFile& file, const LasHeader& header) {
-  std::uint64_t end = file.size_bytes();
-  if (header.evlr_count > 0 && header.evlr_start > header.offset_to_points) end = std::min(end, header.evlr_start);
-  if (header.waveform_start > header.offset_to_points) end = std::min(end, header.waveform_start);
-  return end;
-}
-
-void settle_points(const InputFile& file, LasFile& las) {
-  const LasHeader& header = las.header;
-  const std::uint64_t record_bytes = header.record_bytes;
-  PointCounts counts;
-  counts.legacy = header.legacy_count;
-  if (header.minor >= 4) counts.extended = header.point_count;
-  counts.room = (next_structure(file, header) - header.offset_to_points) / record_bytes;
-  counts.file_room = (file.size_bytes() - header.offset_to_points) / record_bytes;
-  las.points = choose_point_count(counts);
-
-  const bool compressed =
-      std::any_of(las.vlrs.begin(), las.vlrs.end(), [](const LasVlr& vlr) { return vlr.is("laszip encoded", 22204); });
-  // Without the compression bits the record may be a leftover of decompression: then the points fill their room
-  // exactly.
-  if (compressed && las.points != counts.room) refuse_compressed(file);
-  if (compressed)
-    las.problems.push_back({"stale-laszip-vlr", "a LASzip record is present although the points are not compressed"});
-
-  if (las.points > counts.file_room) {
-    const auto needed = checked_multiply(las.points, record_bytes);
-    const auto end = needed ? checked_add(*needed, header.offset_to_points) : std::nullopt;
-    throw InputError(
-        fmt::format("{}: the header promises {} points of {} bytes from byte {} to {}, but the file ends at byte {} "
-                    "and holds {} whole points; "
-                    "it is cut short, copy or export it again",
-                    file.name(), las.points, record_bytes, header.offset_to_points,
-                    end ? std::to_string(*end) : "beyond 2^64", file.size_bytes(), counts.file_room));
-  }
-  las.points_end = header.offset_to_points + las.points * record_bytes;
-
-  if (counts.extended && counts.legacy != 0 && counts.legacy != *counts.extended) {
-    las.problems.push_back(
-        {"count-mismatch",
-         fmt::format("the header counts {} points in 32 bits and {} in 64, the file has room for {}; {} are read",
-                     counts.legacy, *counts.extended, counts.room, las.points)});
-  } else if (las.points == 0 && counts.room > 0) {
-    las.problems.push_back(
-        {"count-zero", fmt::format("the header counts no points, but {} bytes follow it; they are not read as points",
-                                   file.size_bytes() - header.offset_to_points)});
-  }
-}
-
 void note_oddities(const InputFile& file, LasFile& las) {
   const LasHeader& header = las.header;
   for (std::size_t axis = 0; axis < 3 && las.points > 0; ++axis) {
     if (!std::isfinite(header.min[axis]) || !std::isfinite(header.max[axis]) || header.min[axis] > header.max[axis]) {
-      las.problems.push_back({"bounds-invalid", fmt::format("the header's {} range [{}, {}] is not a range",
-                                                            "xyz"[axis], header.min[axis], header.max[axis])});
+      las.problems.push_back({"bounds-invalid",
+                              fmt::format("the header's {} range [{}, {}] is not a range", "xyz"[axis],
+                                          header.min[axis], header.max[axis]),
+                              kBounds + 16 * axis});
     }
   }
   const bool wkt = (header.global_encoding & kEncodingWkt) != 0;
   if (is_extended_format(header.point_format) && !wkt) {
     las.problems.push_back(
-        {"wkt-bit", fmt::format("point format {} needs the WKT bit of the global encoding, which is not set",
-                                header.point_format)});
+        {"wkt-bit",
+         fmt::format("point format {} needs the WKT bit of the global encoding, which is not set", header.point_format),
+         kGlobalEncoding});
+  }
+  if (is_extended_format(header.point_format) && header.minor >= 4 && header.legacy_count != 0) {
+    las.problems.push_back({"legacy-count",
+                            fmt::format("point format {} must leave the 32-bit count 0, it is {}", header.point_format,
+                                        header.legacy_count),
+                            kLegacyCount});
   }
   if (las.evlrs.empty() && header.waveform_start == 0 && file.size_bytes() > las.points_end && las.points > 0) {
-    las.problems.push_back({"trailing-bytes", fmt::format("{} bytes follow the last point and belong to nothing",
-                                                          file.size_bytes() - las.points_end)});
+    las.problems.push_back(
+        {"trailing-bytes",
+         fmt::format("{} bytes follow the last point and belong to nothing", file.size_bytes() - las.points_end),
+         las.points_end});
   }
 }
 
 }  // namespace
 
-std::uint64_t choose_point_count(const PointCounts& counts) {
-  const std::uint64_t legacy = counts.legacy;
-  if (!counts.extended || *counts.extended == legacy) return legacy;
-  const std::uint64_t extended = *counts.extended;
-  if (legacy == 0) return extended;
-  if (extended == 0) return legacy;
-  if (legacy == counts.room) return legacy;
-  if (extended == counts.room) return extended;
-  return legacy <= counts.file_room ? legacy : extended;
-}
-
-LasFile read_las_file(const InputFile& file) {
+LasFile read_las_file(const InputFile& file, Tolerance tolerance) {
   LasFile las;
   las.header = read_las_header(file, las.problems);
   const LasHeader& header = las.header;
   las.vlrs = walk_records(file, header.raw.size(), header.offset_to_points, header.vlr_count, false, las.problems);
   las.vlrs_end = las.vlrs.empty() ? header.raw.size() : las.vlrs.back().end();
-  settle_points(file, las);
+  settle_point_count(file, tolerance, las);
   if (header.evlr_count > 0) {
     const bool within_points = header.evlr_start < header.raw.size() ||
                                (header.evlr_start >= header.offset_to_points && header.evlr_start < las.points_end);
     if (within_points) {
       las.problems.push_back(
           {"evlr-overlap",
-           fmt::format("extended records start at byte {}, within other data; they are ignored", header.evlr_start)});
+           fmt::format("extended records start at byte {}, within other data; they are ignored", header.evlr_start),
+           kEvlrStart});
     } else {
       las.evlrs = walk_records(file, header.evlr_start, file.size_bytes(), header.evlr_count, true, las.problems);
     }

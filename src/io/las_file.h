@@ -59,9 +59,9 @@ struct LasFile {
 
 /// Reads and checks the structure. Throws InputError for files whose points cannot be trusted: bad magic or version,
 /// compressed points, unknown point format, record shorter than its format, unusable scale or offset, points beyond the
-/// end of the file. Everything else that is wrong becomes a problem. Memory is bounded: no count of the file is
-/// believed before it is seen.
-LasFile read_las_file(const InputFile& file);
+/// end of the file (read as far as they go under kSalvage). Everything else that is wrong becomes a problem; it is for
+/// the caller to refuse them under kStrict. Memory is bounded: no count of the file is believed before it is seen.
+LasFile read_las_file(const InputFile& file, Tolerance tolerance = Tolerance::kUsual);
 
 /// Payload of a record, at most `limit_bytes` of it.
 std::vector<std::byte> read_payload(const InputFile& file, const LasVlr& record, std::size_t limit_bytes);
@@ -80,5 +80,10 @@ struct PointCounts {
 /// Where the header's counts agree, or one of them is zero, the count is theirs. Where they disagree, the one that
 /// fills the room wins, else the 32-bit one if it fits (as the specification asks), else the 64-bit one.
 std::uint64_t choose_point_count(const PointCounts& counts);
+
+/// Sets las.points and las.points_end from the three witnesses, once the VLRs are known. Disagreement becomes a
+/// problem; a count beyond the end of the file is refused, or cut to what is there under kSalvage, which also reads the
+/// room of a file that counts nothing (a writer that was interrupted).
+void settle_point_count(const InputFile& file, Tolerance tolerance, LasFile& las);
 
 }  // namespace arris::io

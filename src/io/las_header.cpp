@@ -13,42 +13,39 @@
 namespace arris::io {
 namespace {
 
-[[noreturn]] void refuse(const InputFile& file, std::string_view what) {
-  throw InputError(fmt::format("{}: {}", file.name(), what));
-}
-
 /// The first header_size bytes, after checking the few fields needed to know how many these are.
 std::vector<std::byte> read_raw_header(const InputFile& file, std::vector<Problem>& problems) {
   constexpr std::size_t kLeast = kLasHeaderBytes[0];
   std::vector<std::byte> raw(kLeast);
   const std::size_t got = file.read_some(0, raw);
   if (got < 4 || field_text(raw.data(), 4) != "LASF")
-    refuse(file, "is not a LAS file: it does not begin with \"LASF\"");
+    refuse(file, 0, "this is not a LAS file: it does not begin with \"LASF\"", "give a LAS or PLY file");
   if (got < kLeast) {
-    refuse(file,
-           fmt::format("ends at byte {}, within the header (least size {} bytes); the file is cut short", got, kLeast));
+    refuse(file, got, fmt::format("the file ends here, within the header of at least {} bytes", kLeast),
+           "it is cut short: copy or export it again");
   }
   const auto major = load<std::uint8_t>(&raw[kVersionMajor]);
   const auto minor = load<std::uint8_t>(&raw[kVersionMinor]);
   if (major != 1 || minor > kLasNewestMinor) {
-    refuse(file, fmt::format("bytes 24-25 declare LAS {}.{}; versions 1.0 to 1.{} can be read", major, minor,
-                             kLasNewestMinor));
+    refuse(file, kVersionMajor, fmt::format("the header declares LAS {}.{}", major, minor),
+           fmt::format("versions 1.0 to 1.{} can be read: export it as one of them", kLasNewestMinor));
   }
   const std::size_t size = load<std::uint16_t>(&raw[kHeaderSize]);
   // Some 1.3 writers keep the 227 bytes of 1.2, some 1.5 ones the 375 of 1.4; what follows is then absent.
   const std::size_t least = minor >= 4 ? kLasHeaderBytes[4] : kLeast;
   if (size < least) {
-    refuse(file, fmt::format("header size {} at byte 94 is below the {} bytes of LAS 1.{}; the file is damaged", size,
-                             least, minor));
+    refuse(file, kHeaderSize, fmt::format("header size {} is below the {} bytes of LAS 1.{}", size, least, minor),
+           "the header is damaged: export the file again");
   }
   if (size < kLasHeaderBytes[minor]) {
-    problems.push_back(
-        {"header-size", fmt::format("header size {} is below the {} bytes of LAS 1.{}; absent fields read as 0", size,
-                                    kLasHeaderBytes[minor], minor)});
+    problems.push_back({"header-size",
+                        fmt::format("header size {} is below the {} bytes of LAS 1.{}; absent fields read as 0", size,
+                                    kLasHeaderBytes[minor], minor),
+                        kHeaderSize});
   }
   if (size > file.size_bytes()) {
-    refuse(file, fmt::format("ends at byte {}, within the header of {} bytes; the file is cut short", file.size_bytes(),
-                             size));
+    refuse(file, file.size_bytes(), fmt::format("the file ends here, within the header of {} bytes", size),
+           "it is cut short: copy or export it again");
   }
   raw.resize(size);
   file.read(0, raw);
@@ -61,39 +58,42 @@ void check_coordinates(const InputFile& file, const LasHeader& header) {
     const double offset = header.offset[axis];
     const double reach = std::abs(scale) * 2147483648.0 + std::abs(offset);
     if (!(std::abs(scale) > 0.0) || !std::isfinite(reach)) {
-      refuse(file,
-             fmt::format("{} scale {} (byte {}) and offset {} (byte {}) cannot give coordinates; repair the header",
-                         "xyz"[axis], scale, kScale + 8 * axis, offset, kOffset + 8 * axis));
+      const bool bad_scale = !(std::abs(scale) > 0.0) || !std::isfinite(scale);
+      refuse(file, (bad_scale ? kScale : kOffset) + 8 * axis,
+             fmt::format("{} scale {} and offset {} cannot give coordinates", "xyz"[axis], scale, offset),
+             "repair the header or export the file again");
     }
   }
 }
 
 void check_point_format(const InputFile& file, const LasHeader& header, std::vector<Problem>& problems) {
   if (header.point_format >= kLasPointFormats) {
-    refuse(file,
-           fmt::format("point format {} at byte 104 is unknown; formats 0 to 10 can be read", header.point_format));
+    refuse(file, kPointFormat, fmt::format("point format {} is unknown", header.point_format),
+           "formats 0 to 10 can be read: export the file as one of them");
   }
   const std::size_t least = kLasPointLayouts[header.point_format].size_bytes;
   if (header.record_bytes < least) {
-    refuse(file,
-           fmt::format("record length {} at byte 105 is below the {} bytes of point format {}; the file is damaged",
-                       header.record_bytes, least, header.point_format));
+    refuse(file, kRecordLength,
+           fmt::format("record length {} is below the {} bytes of point format {}", header.record_bytes, least,
+                       header.point_format),
+           "the header is damaged: export the file again");
   }
   const int since = is_extended_format(header.point_format) ? 4
                     : header.point_format >= 4              ? 3
                     : header.point_format >= 2              ? 2
                                                             : 0;
   if (header.minor < since) {
-    problems.push_back(
-        {"point-format-version", fmt::format("point format {} does not exist in LAS 1.{}; read as LAS 1.{} defines it",
-                                             header.point_format, header.minor, since)});
+    problems.push_back({"point-format-version",
+                        fmt::format("point format {} does not exist in LAS 1.{}; read as LAS 1.{} defines it",
+                                    header.point_format, header.minor, since),
+                        kPointFormat});
   }
 }
 
 }  // namespace
 
-void refuse_compressed(const InputFile& file) {
-  refuse(file, "holds compressed points (LAZ), which this version cannot read; decompress it to LAS first");
+void refuse_compressed(const InputFile& file, std::uint64_t byte) {
+  refuse(file, byte, "the points are compressed (LAZ), which this version cannot read", "decompress it to LAS first");
 }
 
 LasHeader read_las_header(const InputFile& file, std::vector<Problem>& problems) {
@@ -105,7 +105,7 @@ LasHeader read_las_header(const InputFile& file, std::vector<Problem>& problems)
   header.offset_to_points = load<std::uint32_t>(raw + kOffsetToPoints);
   header.vlr_count = load<std::uint32_t>(raw + kVlrCount);
   const auto format_byte = load<std::uint8_t>(raw + kPointFormat);
-  if ((format_byte & 0xC0) != 0) refuse_compressed(file);
+  if ((format_byte & 0xC0) != 0) refuse_compressed(file, kPointFormat);
   header.point_format = format_byte;
   header.record_bytes = load<std::uint16_t>(raw + kRecordLength);
   header.legacy_count = load<std::uint32_t>(raw + kLegacyCount);
@@ -126,13 +126,16 @@ LasHeader read_las_header(const InputFile& file, std::vector<Problem>& problems)
   check_point_format(file, header, problems);
   check_coordinates(file, header);
   if (header.offset_to_points < header.raw.size()) {
-    refuse(file, fmt::format("offset to points {} at byte 96 lies within the header of {} bytes; the file is damaged",
-                             header.offset_to_points, header.raw.size()));
+    refuse(file, kOffsetToPoints,
+           fmt::format("offset to points {} lies within the header of {} bytes", header.offset_to_points,
+                       header.raw.size()),
+           "the header is damaged: export the file again");
   }
   if (header.offset_to_points > file.size_bytes()) {
-    refuse(file, fmt::format(
-                     "points start at byte {}, but the file ends at byte {}; it is cut short, copy or export it again",
-                     header.offset_to_points, file.size_bytes()));
+    refuse(file, kOffsetToPoints,
+           fmt::format("points start at byte {}, but the file ends at byte {}", header.offset_to_points,
+                       file.size_bytes()),
+           "it is cut short: copy or export it again");
   }
   return header;
 }

@@ -12,6 +12,7 @@ namespace arris::io {
 LasHeader read_las_header(const InputFile& file, std::vector<Problem>& problems);
 
 /// Throws the InputError that explains what to do with a LAZ file.
-[[noreturn]] void refuse_compressed(const InputFile& file);
+/// @param byte  what shows that it is one.
+[[noreturn]] void refuse_compressed(const InputFile& file, std::uint64_t byte);
 
 }  // namespace arris::io

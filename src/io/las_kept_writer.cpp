@@ -27,7 +27,9 @@ constexpr std::uint64_t kMaxStrayTail = std::uint64_t{1} << 20;
 class LasKeptWriter final : public KeptPointWriter {
  public:
   explicit LasKeptWriter(const KeptJob& job)
-      : input_(job.inputs[0].path), las_(read_las_file(input_)), output_(job.path, job.options.overwrite) {
+      : input_(job.inputs[0].path),
+        las_(read_las_file(input_, job.inputs[0].tolerance)),
+        output_(job.path, job.options.overwrite) {
     check_las_sharing(job.inputs, warnings_);
     std::vector<std::string> taken;
     for (const ExtraAttribute& attribute : read_extra_bytes(input_, las_).attributes) taken.push_back(attribute.name);

@@ -25,7 +25,7 @@ struct Shared {
 Shared read_shared(const SourceInfo& input) {
   constexpr std::size_t kMostCrsBytes = std::size_t{1} << 20;
   const InputFile file(input.path);
-  Shared shared{read_las_file(file), {}, {}};
+  Shared shared{read_las_file(file, input.tolerance), {}, {}};
   shared.extra_entries = read_extra_bytes(file, shared.las).entries;
   for (const auto* records : {&shared.las.vlrs, &shared.las.evlrs}) {
     for (const LasVlr& record : *records) {

@@ -6,6 +6,8 @@
 
 #include "io/bytes.h"
 #include "io/input_file.h"
+#include "io/las_crs.h"
+#include "io/las_extra_bytes.h"
 #include "io/las_file.h"
 #include "io/read_limits.h"
 
@@ -14,19 +16,24 @@ namespace {
 
 class LasSource final : public PointSource {
  public:
-  explicit LasSource(const std::filesystem::path& path) : file_(path), las_(read_las_file(file_)) {
+  LasSource(std::shared_ptr<const InputFile> file, Tolerance tolerance)
+      : file_(std::move(file)), las_(read_las_file(*file_, tolerance)) {
     const LasHeader& header = las_.header;
-    info_.path = path;
+    info_.path = file_->path();
     info_.format = Format::kLas;
     info_.layout = fmt::format("LAS 1.{}, point format {}, {} bytes per point", header.minor, header.point_format,
                                header.record_bytes);
-    info_.size_bytes = file_.size_bytes();
+    info_.size_bytes = file_->size_bytes();
     info_.points = las_.points;
     info_.scaled_integers = true;
     info_.scale = header.scale;
     info_.offset = header.offset;
     info_.record_bytes = header.record_bytes;
     info_.problems = las_.problems;
+    for (const Problem& problem : read_extra_bytes(*file_, las_).problems) info_.problems.push_back(problem);
+    note_crs_problems(*file_, las_, info_.problems);
+    info_.tolerance = tolerance;
+    info_.modified_ns = file_->modified_ns();
   }
 
   const SourceInfo& info() const override { return info_; }
@@ -42,7 +49,7 @@ class LasSource final : public PointSource {
     if (count == 0) return false;
     const std::uint64_t begin = las_.header.offset_to_points + next_ * info_.record_bytes;
     if (options.records) {
-      file_.read(begin, batch.records);
+      file_->read(begin, batch.records);
       decode(batch.records.data(), 0, count, batch);
     } else {
       read_coordinates(begin, batch);
@@ -58,7 +65,7 @@ class LasSource final : public PointSource {
     block_.resize(std::min(block_points, batch.count) * info_.record_bytes);
     for (std::size_t first = 0; first < batch.count; first += block_points) {
       const std::size_t count = std::min(block_points, batch.count - first);
-      file_.read(begin + first * info_.record_bytes, std::span(block_).first(count * info_.record_bytes));
+      file_->read(begin + first * info_.record_bytes, std::span(block_).first(count * info_.record_bytes));
       decode(block_.data(), first, count, batch);
     }
   }
@@ -75,7 +82,7 @@ class LasSource final : public PointSource {
     }
   }
 
-  InputFile file_;
+  std::shared_ptr<const InputFile> file_;
   LasFile las_;
   SourceInfo info_;
   std::uint64_t next_ = 0;  ///< Next point to deliver.
@@ -84,8 +91,8 @@ class LasSource final : public PointSource {
 
 }  // namespace
 
-std::unique_ptr<PointSource> open_las_source(const std::filesystem::path& path) {
-  return std::make_unique<LasSource>(path);
+std::unique_ptr<PointSource> open_las_source(std::shared_ptr<const InputFile> file, Tolerance tolerance) {
+  return std::make_unique<LasSource>(std::move(file), tolerance);
 }
 
 }  // namespace arris::io

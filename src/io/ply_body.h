@@ -21,6 +21,14 @@ void read_ply_record(const InputFile& file, const PlyHeader& header, std::size_t
 std::uint64_t skip_ply_element(const InputFile& file, const PlyHeader& header, std::size_t element,
                                std::uint64_t begin);
 
+/// Records before the first one that is damaged or cut off, and the offset behind them.
+struct WholeRecords {
+  std::uint64_t count = 0;
+  std::uint64_t end = 0;
+};
+WholeRecords count_whole_records(const InputFile& file, const PlyHeader& header, std::size_t element,
+                                 std::uint64_t begin);
+
 /// Offset of the first byte of `element`.
 std::uint64_t find_ply_element(const InputFile& file, const PlyHeader& header, std::size_t element);
 

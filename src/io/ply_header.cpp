@@ -54,21 +54,22 @@ class HeaderParser {
     find_line_end();
     while (!ended_) parse_line(next_line());
     header_.body_begin = at_;
-    if (!has_format_) refuse("has no \"format\" line");
+    if (!has_format_) refuse("there is no \"format\" line");
     check_vertices();
     return std::move(header_);
   }
 
  private:
-  [[noreturn]] void refuse(std::string_view what) const {
-    throw InputError(
-        fmt::format("{}: PLY header, line {}: {}", file_.name(), std::max<std::size_t>(1, header_.lines.size()), what));
+  [[noreturn]] void refuse(std::string_view what,
+                           std::string_view remedy = "the header is damaged: export the file again") const {
+    io::refuse(file_, line_begin_,
+               fmt::format("PLY header, line {}: {}", std::max<std::size_t>(1, header_.lines.size()), what), remedy);
   }
 
   void find_line_end() {
     const std::size_t end = text_.find_first_of("\r\n");
     if (!text_.starts_with("ply") || end == std::string::npos || split_words(text_.substr(0, end)).size() != 1) {
-      refuse("is not a PLY file: it does not begin with a line \"ply\"");
+      refuse("this is not a PLY file: it does not begin with a line \"ply\"", "give a LAS or PLY file");
     }
     const bool carriage = text_[end] == '\r';
     const bool both = carriage && end + 1 < text_.size() && text_[end + 1] == '\n';
@@ -79,8 +80,9 @@ class HeaderParser {
   std::string_view next_line() {
     const char last = header_.line_end.back();
     const std::size_t end = text_.find(last, at_);
+    line_begin_ = at_;
     if (end == std::string::npos) {
-      refuse(text_.size() == kMaxHeaderBytes ? "the header exceeds 1 MiB without \"end_header\"; the file is damaged"
+      refuse(text_.size() == kMaxHeaderBytes ? "the header exceeds 1 MiB without \"end_header\""
                                              : "the file ends within the header, \"end_header\" is missing");
     }
     std::string_view line = std::string_view(text_).substr(at_, end - at_);
@@ -105,11 +107,12 @@ class HeaderParser {
   /// property.
   void pass_unknown(std::string_view keyword) {
     if (!header_.elements.empty()) refuse(fmt::format("unknown keyword \"{}\"", printable(keyword, 40)));
-    header_.problems.push_back(
-        {"ply-keyword", fmt::format("PLY header, line {}: unknown keyword \"{}\", taken as a comment",
-                                    header_.lines.size(), printable(keyword, 40))});
+    header_.problems.push_back({"ply-keyword",
+                                fmt::format("PLY header, line {}: unknown keyword \"{}\", taken as a comment",
+                                            header_.lines.size(), printable(keyword, 40)),
+                                line_begin_});
     header_.lines.back().insert(0, "comment ");
-    if (header_.problems.size() > kMaxProblems) refuse("too many unknown keywords; the file is damaged");
+    if (header_.problems.size() > kMaxProblems) refuse("too many unknown keywords");
   }
 
   void parse_format(const std::vector<std::string_view>& words) {
@@ -128,7 +131,7 @@ class HeaderParser {
     header_.version = words[2];
     if (words[2] != "1.0") {
       header_.problems.push_back(
-          {"ply-version", fmt::format("PLY version \"{}\" is read as 1.0", printable(words[2], 40))});
+          {"ply-version", fmt::format("PLY version \"{}\" is read as 1.0", printable(words[2], 40)), line_begin_});
     }
   }
 
@@ -146,7 +149,7 @@ class HeaderParser {
     for (const PlyElement& other : header_.elements) {
       if (other.name == element.name) refuse(fmt::format("a second element \"{}\"", printable(element.name, 40)));
     }
-    if (header_.elements.size() == kMaxElements) refuse("more than 4096 elements; the file is damaged");
+    if (header_.elements.size() == kMaxElements) refuse("more than 4096 elements");
     header_.elements.push_back(std::move(element));
     names_.clear();
   }
@@ -165,7 +168,7 @@ class HeaderParser {
     property.type = known_type(words[words.size() - 2]);
     property.name = words.back();
     if (!names_.insert(property.name).second) {
-      refuse(fmt::format("a second property \"{}\"; rename one of them", printable(property.name, 40)));
+      refuse(fmt::format("a second property \"{}\"", printable(property.name, 40)), "rename one of them");
     }
     header_.elements.back().properties.push_back(std::move(property));
   }
@@ -182,13 +185,13 @@ class HeaderParser {
       if (names.size() < 200) names += (i > 0 ? ", " : "") + printable(header_.elements[i].name, 40);
     }
     if (header_.elements.empty() || header_.vertices().name != "vertex") {
-      throw InputError(
-          fmt::format("{}: has no element \"vertex\", only: {}", file_.name(), names.empty() ? "none" : names));
+      io::refuse(file_, 0, fmt::format("there is no element \"vertex\", only: {}", names.empty() ? "none" : names),
+                 "a point cloud needs vertices with x, y and z");
     }
     for (const char* axis : {"x", "y", "z"}) {
       if (header_.vertices().find(axis) >= 0) continue;
-      throw InputError(
-          fmt::format("{}: its vertices have no property \"{}\"; x, y and z are needed", file_.name(), axis));
+      io::refuse(file_, 0, fmt::format("the vertices have no property \"{}\"", axis),
+                 "x, y and z are needed: name them so, each with a number of its own");
     }
   }
 
@@ -196,6 +199,7 @@ class HeaderParser {
   PlyHeader header_;
   std::string text_;
   std::size_t at_ = 0;
+  std::size_t line_begin_ = 0;
   bool ended_ = false;
   bool has_format_ = false;
   std::set<std::string> names_;  ///< Of the current element's properties.

@@ -15,7 +15,7 @@
 namespace arris::io {
 namespace {
 
-SourceInfo make_info(const InputFile& file, const PlyHeader& header) {
+SourceInfo make_info(const InputFile& file, const PlyHeader& header, Tolerance tolerance) {
   SourceInfo info;
   info.path = file.path();
   info.format = Format::kPly;
@@ -23,7 +23,46 @@ SourceInfo make_info(const InputFile& file, const PlyHeader& header) {
   info.size_bytes = file.size_bytes();
   info.points = header.vertices().count;
   info.problems = header.problems;
+  info.tolerance = tolerance;
+  info.modified_ns = file.modified_ns();
   return info;
+}
+
+/// Under kSalvage: takes what is whole for the number of vertices.
+void salvage_vertices(const InputFile& file, const PlyHeader& header, std::uint64_t begin, SourceInfo& info) {
+  if (info.tolerance != Tolerance::kSalvage) return;
+  const WholeRecords whole = count_whole_records(file, header, header.vertex, begin);
+  if (whole.count == info.points) return;
+  info.problems.push_back({"points-lost",
+                           fmt::format("{} of {} vertices are whole; {} from byte {} on are lost", whole.count,
+                                       info.points, info.points - whole.count, whole.end),
+                           whole.end});
+  info.points = whole.count;
+}
+
+/// Elements behind the vertices are not read; that the file is too short for them shows all the same.
+void note_short_elements(const InputFile& file, const PlyHeader& header, std::uint64_t vertices_end, SourceInfo& info) {
+  std::uint64_t left = file.size_bytes() - vertices_end;
+  bool fixed = true;
+  for (std::size_t i = header.vertex + 1; i < header.elements.size(); ++i) {
+    const PlyElement& element = header.elements[i];
+    const auto least = checked_multiply(element.count, element.least_bytes());
+    if (!least || *least > left) {
+      info.problems.push_back({"elements-lost",
+                               fmt::format("the {} {} records that the header counts behind the vertices do not fit "
+                                           "the {} bytes that are left",
+                                           element.count, printable(element.name, 40), left),
+                               vertices_end});
+      return;
+    }
+    left -= *least;
+    fixed = fixed && !element.has_list();
+  }
+  if (fixed && left > 0) {
+    info.problems.push_back({"trailing-bytes",
+                             fmt::format("{} bytes follow the last element and belong to nothing", left),
+                             file.size_bytes() - left});
+  }
 }
 
 void start_batch(PointBatch& batch, std::uint64_t first_id, std::size_t count) {
@@ -67,11 +106,15 @@ void decode_axis_of_type(PlyType type, const std::byte* at, std::size_t stride, 
 /// Binary vertices without lists: records of fixed size, found by arithmetic.
 class PlyFixedSource final : public PointSource {
  public:
-  PlyFixedSource(const std::filesystem::path& path, PlyHeader header)
-      : file_(path), header_(std::move(header)), info_(make_info(file_, header_)) {
+  PlyFixedSource(std::shared_ptr<const InputFile> file, PlyHeader header, Tolerance tolerance)
+      : file_(std::move(file)), header_(std::move(header)), info_(make_info(*file_, header_, tolerance)) {
     info_.record_bytes = header_.vertices().least_bytes();
-    begin_ = find_ply_element(file_, header_, header_.vertex);
-    skip_ply_element(file_, header_, header_.vertex, begin_);  // Throws if the file is too short.
+    begin_ = find_ply_element(*file_, header_, header_.vertex);
+    salvage_vertices(*file_, header_, begin_, info_);
+    if (info_.points == header_.vertices().count) {
+      // Throws if the file is too short.
+      note_short_elements(*file_, header_, skip_ply_element(*file_, header_, header_.vertex, begin_), info_);
+    }
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto property = static_cast<std::size_t>(header_.vertices().find(kAxes[axis]));
       types_[axis] = header_.vertices().properties[property].type;
@@ -89,7 +132,7 @@ class PlyFixedSource final : public PointSource {
     if (count == 0) return false;
     const std::uint64_t begin = begin_ + next_ * info_.record_bytes;
     if (options.records) {
-      file_.read(begin, batch.records);
+      file_->read(begin, batch.records);
       decode(batch.records.data(), 0, count, batch);
     } else {
       read_coordinates(begin, batch);
@@ -106,7 +149,7 @@ class PlyFixedSource final : public PointSource {
     block_.resize(std::min(block_points, batch.count) * info_.record_bytes);
     for (std::size_t first = 0; first < batch.count; first += block_points) {
       const std::size_t count = std::min(block_points, batch.count - first);
-      file_.read(begin + first * info_.record_bytes, std::span(block_).first(count * info_.record_bytes));
+      file_->read(begin + first * info_.record_bytes, std::span(block_).first(count * info_.record_bytes));
       decode(block_.data(), first, count, batch);
     }
   }
@@ -123,7 +166,7 @@ class PlyFixedSource final : public PointSource {
     }
   }
 
-  InputFile file_;
+  std::shared_ptr<const InputFile> file_;
   PlyHeader header_;
   SourceInfo info_;
   std::uint64_t begin_ = 0;  ///< Offset in the file of the first vertex.
@@ -136,14 +179,15 @@ class PlyFixedSource final : public PointSource {
 /// Ascii vertices, and binary ones with lists: records of any size, found by reading them.
 class PlyWalkedSource final : public PointSource {
  public:
-  PlyWalkedSource(const std::filesystem::path& path, PlyHeader header)
-      : file_(path),
+  PlyWalkedSource(std::shared_ptr<const InputFile> file, PlyHeader header, Tolerance tolerance)
+      : file_(std::move(file)),
         header_(std::move(header)),
-        info_(make_info(file_, header_)),
-        window_(file_),
+        info_(make_info(*file_, header_, tolerance)),
+        window_(*file_),
         walker_(header_.format, header_.vertices(),
                 {header_.vertices().find("x"), header_.vertices().find("y"), header_.vertices().find("z")}) {
-    begin_ = find_ply_element(file_, header_, header_.vertex);
+    begin_ = find_ply_element(*file_, header_, header_.vertex);
+    salvage_vertices(*file_, header_, begin_, info_);
     check_count();
     PlyWalkedSource::rewind();
   }
@@ -165,7 +209,7 @@ class PlyWalkedSource final : public PointSource {
     std::size_t bytes = 0;
     std::size_t count = 0;
     for (; count < most && (count == 0 || bytes + walker_.end() <= kBatchBytes); ++count) {
-      read_ply_record(file_, header_, header_.vertex, next_ + count, window_, walker_);
+      read_ply_record(*file_, header_, header_.vertex, next_ + count, window_, walker_);
       mid_line_ = mid_line_ || (next_ + count > 0 && !walker_.follows_line_end());
       batch.x[count] = walker_.value(0);
       batch.y[count] = walker_.value(1);
@@ -190,16 +234,15 @@ class PlyWalkedSource final : public PointSource {
 
   /// A count that even the shortest records could not fill is refused at once; an exact check needs the records.
   void check_count() const {
-    const std::uint64_t left = file_.size_bytes() - begin_;
+    const std::uint64_t left = file_->size_bytes() - begin_;
     // A value in ascii takes a digit and a blank; the last blank may be missing.
     const std::size_t least = header_.format == PlyFormat::kAscii ? 2 * header_.vertices().properties.size()
                                                                   : header_.vertices().least_bytes();
     if (info_.points <= (left + 1) / least) return;
-    throw InputError(
-        fmt::format("{}: the header promises {} vertices, but the {} bytes behind byte {} hold at most {}; the file is "
-                    "cut short or "
-                    "damaged",
-                    file_.name(), info_.points, left, begin_, (left + 1) / least));
+    refuse(*file_, begin_,
+           fmt::format("the header counts {} vertices, but the {} bytes from here on hold at most {}", info_.points,
+                       left, (left + 1) / least),
+           "copy or export the file again, or read what is there with --salvage");
   }
 
   /// Ascii vertices that neither keep to lines nor use up the file were read out of step with the header's properties.
@@ -210,16 +253,15 @@ class PlyWalkedSource final : public PointSource {
       for (const std::byte b : window_.bytes()) {
         const char c = static_cast<char>(b);
         if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
-        throw InputError(fmt::format(
-            "{}: values remain after vertex {} and vertices do not end with their lines; the header declares fewer "
-            "properties than the lines have",
-            file_.name(), info_.points));
+        refuse(*file_, window_.position(),
+               fmt::format("values remain after vertex {} and vertices do not end with their lines", info_.points),
+               "the header declares fewer properties than the lines have: correct it or export the file again");
       }
       window_.consume(window_.bytes().size());
     } while (window_.extend());
   }
 
-  InputFile file_;
+  std::shared_ptr<const InputFile> file_;
   PlyHeader header_;
   SourceInfo info_;
   FileWindow window_;
@@ -231,12 +273,12 @@ class PlyWalkedSource final : public PointSource {
 
 }  // namespace
 
-std::unique_ptr<PointSource> open_ply_source(const std::filesystem::path& path) {
-  PlyHeader header = read_ply_header(InputFile(path));
+std::unique_ptr<PointSource> open_ply_source(std::shared_ptr<const InputFile> file, Tolerance tolerance) {
+  PlyHeader header = read_ply_header(*file);
   if (header.format != PlyFormat::kAscii && !header.vertices().has_list()) {
-    return std::make_unique<PlyFixedSource>(path, std::move(header));
+    return std::make_unique<PlyFixedSource>(std::move(file), std::move(header), tolerance);
   }
-  return std::make_unique<PlyWalkedSource>(path, std::move(header));
+  return std::make_unique<PlyWalkedSource>(std::move(file), std::move(header), tolerance);
 }
 
 }  // namespace arris::io

@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 
 /// What a file seems to be, for the message that refuses it.
 std::string guess(std::string_view head) {
-  if (head.empty()) return "is empty";
-  if (head.starts_with("ASTM-E57")) return "is an E57 file, which this version cannot read; export it as LAS or PLY";
-  if (head.starts_with("PK\3\4") || head.starts_with("\x1f\x8b")) return "is an archive; unpack it first";
-  if (head.starts_with("# .PCD")) return "is a PCD file, which this version cannot read; export it as LAS or PLY";
-  return "is neither LAS (\"LASF\") nor PLY (\"ply\") by its first bytes; export it in one of these formats";
+  if (head.empty()) return "the file is empty";
+  if (head.starts_with("ASTM-E57")) return "this is an E57 file, which this version cannot read";
+  if (head.starts_with("PK\3\4") || head.starts_with("\x1f\x8b")) return "this is an archive, to be unpacked first";
+  if (head.starts_with("# .PCD")) return "this is a PCD file, which this version cannot read";
+  return "the first bytes are those of neither LAS (\"LASF\") nor PLY (\"ply\")";
 }
 
 std::string lower_extension(const fs::path& path) {
@@ -58,19 +58,36 @@ std::vector<fs::path> scans_in_folder(const fs::path& folder) {
   return found;
 }
 
+[[noreturn]] void refuse_changed(const SourceInfo& expected, const std::string& difference) {
+  throw InputError(fmt::format("{}: changed while it was in use ({}); start again when it is complete",
+                               printable(expected.path.string(), 1000), difference));
+}
+
 }  // namespace
 
-std::unique_ptr<PointSource> open_point_source(const fs::path& path) {
+std::unique_ptr<PointSource> open_point_source(std::shared_ptr<const InputFile> file, Tolerance tolerance) {
   std::array<std::byte, 8> head{};
-  const InputFile file(path);
-  const std::size_t got = file.read_some(0, head);
+  const std::size_t got = file->read_some(0, head);
   const std::string_view text(reinterpret_cast<const char*>(head.data()), got);
-  if (text.starts_with("LASF")) return open_las_source(path);
   constexpr std::string_view kBlanks = " \t\r\n";
-  if (text.starts_with("ply") && (text.size() == 3 || kBlanks.find(text[3]) != std::string_view::npos)) {
-    return open_ply_source(path);
+  std::unique_ptr<PointSource> source;
+  if (text.starts_with("LASF")) {
+    source = open_las_source(file, tolerance);
+  } else if (text.starts_with("ply") && (text.size() == 3 || kBlanks.find(text[3]) != std::string_view::npos)) {
+    source = open_ply_source(file, tolerance);
+  } else {
+    refuse(*file, 0, guess(text), "export the scan as LAS or PLY");
   }
-  throw InputError(fmt::format("{}: {}", file.name(), guess(text)));
+  if (tolerance == Tolerance::kStrict && !source->info().problems.empty()) {
+    const Problem& problem = source->info().problems.front();
+    refuse(*file, problem.byte, fmt::format("{} [{}]", problem.text, problem.code),
+           "this is refused under --strict: repair the file, or read it without");
+  }
+  return source;
+}
+
+std::unique_ptr<PointSource> open_point_source(const fs::path& path, Tolerance tolerance) {
+  return open_point_source(std::make_shared<const InputFile>(path), tolerance);
 }
 
 std::vector<fs::path> expand_inputs(std::span<const std::string> arguments) {
@@ -91,14 +108,23 @@ std::vector<fs::path> expand_inputs(std::span<const std::string> arguments) {
   return paths;
 }
 
-InputSet::InputSet(const std::vector<fs::path>& paths) {
+InputSet::InputSet(const std::vector<fs::path>& paths, Tolerance tolerance) {
   if (paths.empty()) throw ConfigError("no input files were given");
   for (const fs::path& path : paths) {
-    infos_.push_back(open_point_source(path)->info());
+    infos_.push_back(open_point_source(path, tolerance)->info());
     const auto sum = checked_add(points_, infos_.back().points);
     if (!sum)
       throw InputError(fmt::format("{}: the inputs promise more than 2^64 points", printable(path.string(), 1000)));
     points_ = *sum;
+  }
+}
+
+void InputSet::check_unchanged() const {
+  for (const SourceInfo& expected : infos_) {
+    const InputFile now(expected.path);
+    if (now.size_bytes() != expected.size_bytes || now.modified_ns() != expected.modified_ns) {
+      refuse_changed(expected, fmt::format("{} bytes, now {}", expected.size_bytes, now.size_bytes()));
+    }
   }
 }
 
@@ -122,11 +148,10 @@ bool InputSet::read(PointBatch& batch, const ReadOptions& options) {
       return false;
     }
     const SourceInfo& expected = infos_[next_];
-    open_ = open_point_source(expected.path);
-    if (open_->info().size_bytes != expected.size_bytes || open_->info().points != expected.points) {
-      throw InputError(
-          fmt::format("{}: changed while it was in use ({} points, now {}); start again when it is complete",
-                      printable(expected.path.string(), 1000), expected.points, open_->info().points));
+    open_ = open_point_source(expected.path, expected.tolerance);
+    if (open_->info().size_bytes != expected.size_bytes || open_->info().points != expected.points ||
+        open_->info().modified_ns != expected.modified_ns) {
+      refuse_changed(expected, fmt::format("{} points, now {}", expected.points, open_->info().points));
     }
     current_ = next_++;
   }

@@ -19,6 +19,14 @@ enum class Format : std::uint8_t { kLas, kPly };
 struct Problem {
   std::string code;
   std::string text;
+  std::uint64_t byte = 0;  ///< Where in the file.
+};
+
+/// What to do with files that do not keep to their format.
+enum class Tolerance : std::uint8_t {
+  kStrict,   ///< Every problem refuses the file.
+  kUsual,    ///< Problems that leave the points in no doubt are reported; others refuse the file.
+  kSalvage,  ///< Of a file that is cut short or counts no points, the whole points that are there are read.
 };
 
 /// What a file says of itself. Filled when the file is opened; the count is checked against the size of the file then.
@@ -34,7 +42,9 @@ struct SourceInfo {
   std::array<double, 3> offset{0.0, 0.0, 0.0};
   /// Size of one original record; 0 where records have no fixed size (PLY ascii or with lists).
   std::size_t record_bytes = 0;
-  std::vector<Problem> problems;  ///< Found while opening; worth a warning each.
+  std::vector<Problem> problems;            ///< Found while opening; worth a warning each.
+  Tolerance tolerance = Tolerance::kUsual;  ///< With which it was opened.
+  std::int64_t modified_ns = 0;             ///< Time of the file's last change, nanoseconds since 1970.
 };
 
 /// Points as structure of arrays; capacity is reused from call to call.
@@ -70,8 +80,13 @@ class PointSource {
   virtual bool read(PointBatch& batch, const ReadOptions& options) = 0;
 };
 
+class InputFile;
+
 /// Opens a file by its content ("LASF", "ply"), not by its name. Throws InputError / IoError.
-std::unique_ptr<PointSource> open_point_source(const std::filesystem::path& path);
+std::unique_ptr<PointSource> open_point_source(std::shared_ptr<const InputFile> file,
+                                               Tolerance tolerance = Tolerance::kUsual);
+std::unique_ptr<PointSource> open_point_source(const std::filesystem::path& path,
+                                               Tolerance tolerance = Tolerance::kUsual);
 
 /// Expands arguments to files: a folder gives its *.las and *.ply files (any case, not recursive) in byte order of
 /// their names. Throws InputError for missing paths and folders without any scan.
@@ -80,13 +95,15 @@ std::vector<std::filesystem::path> expand_inputs(std::span<const std::string> ar
 /// Many files as one stream with global ids. Sources are opened lazily one at a time; infos are read at construction.
 class InputSet {
  public:
-  explicit InputSet(const std::vector<std::filesystem::path>& paths);
+  explicit InputSet(const std::vector<std::filesystem::path>& paths, Tolerance tolerance = Tolerance::kUsual);
   const std::vector<SourceInfo>& sources() const { return infos_; }
   std::uint64_t points() const { return points_; }
   void rewind();
   /// As PointSource::read, with global ids. A batch never crosses a file: source_index() tells which one it came from.
   bool read(PointBatch& batch, const ReadOptions& options);
   std::size_t source_index() const { return current_; }
+  /// Throws InputError if a file is no longer what it was when the set was made (size, time of change).
+  void check_unchanged() const;
 
  private:
   std::vector<SourceInfo> infos_;

@@ -30,6 +30,8 @@ struct WorldExtent {
 /// final file unless overwrite is set (checked at construction and again at commit).
 struct OutputOptions {
   bool overwrite = false;
+  /// The caller will append every point of the inputs: PLY elements that refer to vertices by number stay valid then.
+  bool every_point = false;
   /// Extent of all points of the inputs, if the caller knows it: saves PLY -> LAS a pass over them to choose scale and
   /// offset.
   std::optional<WorldExtent> extent{};

@@ -104,7 +104,7 @@ ExtractReport plan_only(const ExtractRequest& request, ProgressSink& progress, c
   ExtractReport report;
   RecordingSink sink(progress, report);
   Stopwatch watch(report);
-  io::InputSet inputs(io::expand_inputs(request.inputs));
+  io::InputSet inputs(io::expand_inputs(request.inputs), request.tolerance);
   const JobPlan plan = plan_job(inputs, request, sink, cancel);
   describe_plan(plan, inputs, request, report);
   warn_of_dropped(report, sink);
@@ -122,13 +122,17 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
 
   const std::vector<std::filesystem::path> paths = io::expand_inputs(request.inputs);
   refuse_bad_outputs(request, paths);
-  io::InputSet inputs(paths);
+  io::InputSet inputs(paths, request.tolerance);
   for (const io::SourceInfo& source : inputs.sources()) {
-    for (const io::Problem& problem : source.problems) sink.warning(problem.code, printable(source.path.string()) + ": " + problem.text);
+    for (const io::Problem& problem : source.problems)
+      sink.warning(problem.code, printable(source.path.string()) + ": " + problem.text);
   }
+  io::OutputOptions output_options;
+  output_options.overwrite = request.overwrite;
+  output_options.every_point = request.keep_all;
   std::vector<std::unique_ptr<io::KeptPointWriter>> writers;
   for (const std::filesystem::path& output : request.outputs) {
-    writers.push_back(io::create_kept_point_writer(output, inputs, contour_columns(), {request.overwrite}));
+    writers.push_back(io::create_kept_point_writer(output, inputs, contour_columns(), output_options));
     report.outputs.push_back(output.string());
   }
 
@@ -155,6 +159,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     release_free_memory();
   }
   gather_points(inputs, request, plan.liu, results, writers, report, sink, cancel);
+  inputs.check_unchanged();
   for (const auto& writer : writers) {
     writer->commit();
     for (const std::string& warning : writer->warnings()) sink.warning("not-carried", warning);

@@ -9,12 +9,14 @@
 #include "core/cancel.h"
 #include "core/progress.h"
 #include "features/liu_parameters.h"
+#include "io/point_source.h"
 #include "pipeline/extract_report.h"
 
 namespace arris::pipeline {
 
 struct ExtractRequest {
-  std::vector<std::string> inputs;             ///< Files and folders.
+  std::vector<std::string> inputs;  ///< Files and folders.
+  io::Tolerance tolerance = io::Tolerance::kUsual;
   std::vector<std::filesystem::path> outputs;  ///< The extension picks the format; at least one.
   LiuParameters liu;                           ///< max_radius 0: resolved from the survey.
   std::uint64_t memory_bytes = 0;              ///< Bound on the resident memory of the whole process, > 0.

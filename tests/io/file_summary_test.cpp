@@ -80,15 +80,16 @@ TEST_F(Summary, LasHeaderRecordsAndExtraBytes_AreListed) {
 
 TEST_F(Summary, Crs_IsWktElseCitation) {
   LasPlan plan;
-  EXPECT_EQ(of(build_las(plan)).crs, "");
+  EXPECT_EQ(of(build_las(plan)).crs.name, "");
   plan.vlrs = {{"LASF_Projection", 2112, ""},
                {"LASF_Projection", 34735, geo_keys(2, 12, 25832)},
                {"LASF_Projection", 34737, std::string("ETRS89 UTM|\0xx", 14)}};
-  EXPECT_EQ(of(build_las(plan)).crs, "ETRS89 UTM (EPSG:25832)");
+  EXPECT_EQ(of(build_las(plan)).crs.name, "ETRS89 UTM (EPSG:25832)");
   plan.vlrs[2].payload = "";
-  EXPECT_EQ(of(build_las(plan)).crs, "EPSG:25832");
+  EXPECT_EQ(of(build_las(plan)).crs.name, "EPSG:25832");
   plan.vlrs.push_back({"LASF_Projection", 2112, std::string("PROJCS[\"a\tb\"]\0junk", 18)});
-  EXPECT_EQ(of(build_las(plan)).crs, "PROJCS[\"a?b\"]");
+  EXPECT_EQ(of(build_las(plan)).crs.text, "PROJCS[\"a?b\"]");
+  EXPECT_EQ(of(build_las(plan)).crs.name, "a?b");
 }
 
 TEST_F(Summary, DamagedGeoKeys_AreIgnored) {
@@ -98,7 +99,7 @@ TEST_F(Summary, DamagedGeoKeys_AreIgnored) {
       LasPlan plan;
       plan.vlrs = {{"LASF_Projection", 34735, geo_keys(count, 65535, 40000).substr(0, size)},
                    {"LASF_Projection", 34737, "UTM"}};
-      const std::string crs = of(build_las(plan)).crs;
+      const std::string crs = of(build_las(plan)).crs.name;
       EXPECT_EQ(crs, size >= 16 && count >= 1 ? "UTM" : "");
     }
   }

@@ -109,7 +109,7 @@ TEST_F(LasSource, CutAnywhereInThePoints_IsRefusedWithNumbers) {
   const std::string whole = build_las(plan);
   for (std::size_t lost = 1; lost <= 61; ++lost) {
     const std::string text = refusal(whole.substr(0, whole.size() - lost));
-    EXPECT_HAS(text, "promises 5 points of 30 bytes from byte 375 to 525");
+    EXPECT_HAS(text, "counts 5 points of 30 bytes from byte 375 to 525");
     EXPECT_HAS(text, "ends at byte " + std::to_string(525 - lost));
     EXPECT_HAS(text, "holds " + std::to_string((150 - lost) / 30) + " whole points");
   }
@@ -256,7 +256,7 @@ TEST_F(LasSource, FileCutShortWhileRead_IsAnInputError) {
     while (source->read(batch, options)) {
     }
   });
-  EXPECT_HAS(text, "ends at byte 5000");
+  EXPECT_HAS(text, "byte 5000: the file ends here");
 }
 
 TEST(OpenPointSource, WhatIsNoScan_IsRefusedWithAHint) {

@@ -153,7 +153,7 @@ TEST_F(PlySource, DamagedAscii_IsRefusedWithItsPlace) {
   EXPECT_HAS(refusal(ascii("10 20 30\n4 5", 2)), "vertex 2 of 2");
   EXPECT_HAS(refusal(ascii("1 2 3\n4 5 x\n", 2)), "\"x\" is not a number");
   EXPECT_HAS(refusal(ascii("1,5 2 3\n", 1)), "point");
-  EXPECT_HAS(refusal(ascii("1 2 3\n", 1000000)), "promises 1000000 vertices");
+  EXPECT_HAS(refusal(ascii("1 2 3\n", 1000000)), "counts 1000000 vertices");
   EXPECT_HAS(refusal(ascii("1 2 3 x\n", 1, "property int a\n")), "\"x\" is not a number");
   EXPECT_HAS(refusal(ascii("1 2 3 -1\n", 1, "property list int int a\n")), "length of a list");
   EXPECT_HAS(refusal(ascii("1 2 3 99999999999999999999\n", 1, "property list int int a\n")), "length of a list");

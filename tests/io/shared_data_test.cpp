@@ -132,9 +132,9 @@ TEST(RealScan, DamagedFiles_AreRefused) {
 
 TEST(RealScan, Crs_IsFound) {
   ARRIS_SHARED_DATA_OR_SKIP(wkt, "laspy+laspy/tests/data/1_4_w_evlr.las");
-  EXPECT_FALSE(io::summarize_file(wkt).crs.empty());
+  EXPECT_FALSE(io::summarize_file(wkt).crs.name.empty());
   ARRIS_SHARED_DATA_OR_SKIP(keys, "IGNF+ctview/data/las/test_data_0000_0000_LA93_IGN69_ground.las");
-  EXPECT_HAS(io::summarize_file(keys).crs, "93");
+  EXPECT_HAS(io::summarize_file(keys).crs.name, "93");
 }
 
 TEST(RealScan, EveryFileThatIsThere_IsReadOrRefused) {
