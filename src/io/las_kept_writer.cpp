@@ -62,7 +62,7 @@ class LasKeptWriter final : public KeptPointWriter {
 
   void commit() override {
     write_tail();
-    store_totals(header_, totals_);
+    correct_totals(header_, totals_);
     output_.patch(0, header_);
     output_.commit();
   }
@@ -126,6 +126,8 @@ class LasKeptWriter final : public KeptPointWriter {
       }
       store<std::uint64_t>(&header_[kEvlrStart], las_.evlrs.empty() ? 0 : moved(las_.header.evlr_start));
       store<std::uint32_t>(&header_[kEvlrCount], static_cast<std::uint32_t>(las_.evlrs.size()));
+    } else if (las_.header.evlr_start >= las_.points_end) {
+      store<std::uint64_t>(&header_[kEvlrStart], moved(las_.header.evlr_start));  // Some writers point at the end.
     }
     if (!plan_.supersede_evlrs) return;
     std::array<std::byte, 2> id{};

@@ -40,10 +40,14 @@ inline bool can_count(int minor, std::uint64_t points) {
   return minor >= 4 || points <= std::numeric_limits<std::uint32_t>::max();
 }
 
-/// Writes counts, counts by return and bounds into a header, from whose version, point format, scale and offset they
-/// follow. The 32-bit counts are written for point formats 0 to 5 only, and if they suffice; the bounds of no points
-/// are zero.
+/// Writes counts, counts by return and bounds into a new header, from whose version, point format, scale and offset
+/// they follow. The 32-bit counts are written for point formats 0 to 5 only, and if they suffice; the bounds of no
+/// points are zero.
 void store_totals(std::span<std::byte> header, const LasTotals& totals);
+
+/// The same for the header of an existing file, of which nothing that is true changes: bounds stay as they are where
+/// they are true to one step of the scale, and 32-bit counts stay zero where a LAS 1.4 file has 64-bit ones alone.
+void correct_totals(std::span<std::byte> header, const LasTotals& totals);
 
 /// A LAS 1.4 header without points: scale and offset set, everything unused zero, WKT bit set.
 std::array<std::byte, 375> make_las14_header(std::uint8_t point_format, std::size_t record_bytes, double scale,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
+#include <optional>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -34,7 +36,12 @@ class PlyKeptWriter final : public KeptPointWriter {
     for (const PlyProperty& property : header_.vertices().properties) taken.push_back(property.name);
     columns_ = rename_taken_columns(job.columns, taken, warnings_);
     row_bytes_ = row_size_bytes(columns_);
-    choose_elements();
+    if (job.options.every_point)
+      expected_ = std::accumulate(job.inputs.begin(), job.inputs.end(), std::uint64_t{0},
+                                  [](std::uint64_t sum, const SourceInfo& input) { return sum + input.points; });
+    // Vertices keep their numbers if all of them are written and nothing else is.
+    choose_elements(job.options.every_point && job.inputs.size() == 1 &&
+                    job.inputs[0].points == header_.vertices().count);
     if (job.inputs.size() > 1)
       warnings_.push_back(fmt::format("comments and other elements are taken from {} alone", input_.name()));
     write_header();
@@ -58,6 +65,7 @@ class PlyKeptWriter final : public KeptPointWriter {
   }
 
   void commit() override {
+    assert(!expected_ || *expected_ == count_);
     for (std::size_t i = header_.vertex + 1; i < header_.elements.size(); ++i) write_element(i);
     const std::string lines = ply_count_lines(count_, header_.line_end);
     output_.patch(count_at_, std::as_bytes(std::span(lines)));
@@ -74,12 +82,12 @@ class PlyKeptWriter final : public KeptPointWriter {
     std::uint64_t end = 0;
   };
 
-  void choose_elements() {
+  void choose_elements(bool numbers_stay) {
     fates_.resize(header_.elements.size());
     std::size_t last = 0;  // No need to read behind the last element that is carried.
     for (std::size_t i = 0; i < fates_.size(); ++i) {
       const PlyElement& element = header_.elements[i];
-      fates_[i].carried = i == header_.vertex || element.count == 0 || !refers_to_vertices(element);
+      fates_[i].carried = i == header_.vertex || element.count == 0 || numbers_stay || !refers_to_vertices(element);
       if (fates_[i].carried && i != header_.vertex && element.count > 0) last = i + 1;
       if (fates_[i].carried) continue;
       warnings_.push_back(fmt::format("{}: element {} ({} records) is left out: it refers to vertices by their number",
@@ -144,6 +152,7 @@ class PlyKeptWriter final : public KeptPointWriter {
   std::vector<ColumnSpec> columns_;
   std::size_t row_bytes_ = 0;
   std::vector<Fate> fates_;
+  std::optional<std::uint64_t> expected_;  ///< Points that the caller promised to append.
   std::uint64_t count_ = 0;
   std::uint64_t count_at_ = 0;  ///< Offset of the lines that hold the count.
   std::vector<std::byte> scratch_;
