@@ -19,6 +19,7 @@ struct ExtractOptions {
   std::string report;
   bool overwrite = false;
   bool keep_all = false;
+  bool mixed_crs = false;
   bool json = false;
 };
 
@@ -53,6 +54,7 @@ int run_extract(ExtractOptions& o, const CLI::App& verb, Session& session) {
   request.outputs.assign(o.outputs.begin(), o.outputs.end());
   request.overwrite = o.overwrite;
   request.keep_all = o.keep_all;
+  request.mixed_crs = o.mixed_crs;
   request.hash_inputs = !o.report.empty();
   ProgressDisplay display(o.job.display.mode(), o.job.display.verbosity());
   const pipeline::ExtractReport report = pipeline::extract(request, display, session.cancel);
@@ -107,6 +109,8 @@ void add_extract(CLI::App& app, Session& session) {
   verb->add_option("--report", options->report, "Write what was done as JSON");
   verb->add_flag("--overwrite", options->overwrite, "Replace existing outputs");
   verb->add_flag("--keep-all", options->keep_all, "Write every point, with EdgeClass 0 where it is no contour point");
+  verb->add_flag("--mixed-crs", options->mixed_crs,
+                 "Allow inputs with different coordinate reference systems in one output");
   verb->callback([options, verb, &session] {
     session.run = [options, verb, &session] { return run_extract(*options, *verb, session); };
   });

@@ -16,31 +16,6 @@ namespace {
 
 constexpr std::size_t kLasIntensityOffset = 12;
 
-double load_las_value(std::uint8_t type, const std::byte* at) {
-  switch (type) {
-    case 1:
-      return static_cast<double>(load<std::uint8_t>(at));
-    case 2:
-      return static_cast<double>(load<std::int8_t>(at));
-    case 3:
-      return static_cast<double>(load<std::uint16_t>(at));
-    case 4:
-      return static_cast<double>(load<std::int16_t>(at));
-    case 5:
-      return static_cast<double>(load<std::uint32_t>(at));
-    case 6:
-      return static_cast<double>(load<std::int32_t>(at));
-    case 7:
-      return static_cast<double>(load<std::uint64_t>(at));
-    case 8:
-      return static_cast<double>(load<std::int64_t>(at));
-    case 9:
-      return static_cast<double>(load<float>(at));
-    default:
-      return load<double>(at);
-  }
-}
-
 constexpr bool is_scalar_type(std::uint8_t type) {
   return type >= 1 && type <= 10;
 }
@@ -50,7 +25,7 @@ constexpr bool is_scalar_type(std::uint8_t type) {
 struct AttributeReader::Impl {
   struct Field {
     std::size_t offset;
-    std::uint8_t type;
+    ScalarType type;
   };
   std::vector<std::optional<Field>> las;                  ///< Per name, LAS only.
   std::vector<std::unique_ptr<PlyRecordWalker>> walkers;  ///< Per name, PLY only; null if absent.
@@ -60,9 +35,10 @@ struct AttributeReader::Impl {
     const ExtraBytes extra = read_extra_bytes(file, structure);
     for (const std::string& name : names) {
       std::optional<Field> field;
-      if (name == "intensity") field = Field{kLasIntensityOffset, 3};
+      if (name == "intensity") field = Field{kLasIntensityOffset, ScalarType::kUint16};
       for (const ExtraAttribute& attribute : extra.attributes) {
-        if (attribute.name == name && is_scalar_type(attribute.type)) field = Field{attribute.offset, attribute.type};
+        if (attribute.name == name && is_scalar_type(attribute.type))
+          field = Field{attribute.offset, attribute.part_type()};
       }
       las.push_back(field);
     }
@@ -106,7 +82,7 @@ void AttributeReader::read(const PointBatch& batch, std::size_t index, std::vect
                                             batch.record_begin[i + 1] - batch.record_begin[i]);
     if (!impl_->las.empty()) {
       const Impl::Field& field = *impl_->las[index];
-      values[i] = load_las_value(field.type, record.data() + field.offset);
+      values[i] = load_scalar(field.type, record.data() + field.offset);
       continue;
     }
     PlyRecordWalker& walker = *impl_->walkers[index];

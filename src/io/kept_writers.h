@@ -13,7 +13,7 @@
 
 namespace arris::io {
 
-/// What every kept-point writer is made from. `inputs` is not empty and of one format.
+/// What every kept-point writer is made from. `inputs` is not empty.
 struct KeptJob {
   std::filesystem::path path;
   std::vector<SourceInfo> inputs;
@@ -23,8 +23,8 @@ struct KeptJob {
 
 std::unique_ptr<KeptPointWriter> create_las_kept_writer(const KeptJob& job);
 std::unique_ptr<KeptPointWriter> create_ply_kept_writer(const KeptJob& job);
-std::unique_ptr<KeptPointWriter> create_las_to_ply_writer(const KeptJob& job);
-std::unique_ptr<KeptPointWriter> create_ply_to_las_writer(const KeptJob& job);
+std::unique_ptr<KeptPointWriter> create_converted_las_writer(const KeptJob& job);
+std::unique_ptr<KeptPointWriter> create_converted_ply_writer(const KeptJob& job);
 
 /// Columns whose names are already taken by attributes of the input get "_2", "_3", ... (a result of ours fed to us
 /// again); each renaming is added to `warnings`.
@@ -39,8 +39,5 @@ inline std::span<const std::byte> record_of(const PointBatch& batch, std::size_t
   const std::size_t begin = batch.record_begin[point];
   return {batch.records.data() + begin, batch.record_begin[point + 1] - begin};
 }
-
-/// Throws ConfigError saying that `other` cannot share an output with `first`, and why.
-[[noreturn]] void refuse_sharing(const SourceInfo& first, const SourceInfo& other, const std::string& difference);
 
 }  // namespace arris::io

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/error.h"
 #include "io/bytes.h"
@@ -12,7 +13,7 @@
 namespace arris::io {
 namespace {
 
-constexpr std::size_t kMaxPayload = 65535;
+constexpr std::size_t kMaxPayload = kMostExtraBytesPayload;
 constexpr std::uint16_t kExtraBytesRecord = 4;
 /// One entry can cover at most this many undocumented bytes: their number is kept in one byte.
 constexpr std::size_t kMaxUndocumentedBytes = 255;
@@ -21,21 +22,13 @@ constexpr std::array<const char*, 11> kTypeNames{"undocumented", "uint8",  "int8
 constexpr std::array<std::size_t, 11> kTypeBytes{0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
 
 /// Field offsets of an entry.
-constexpr std::size_t kType = 2, kOptions = 3, kName = 4, kDescription = 160;
+constexpr std::size_t kType = 2, kOptions = 3, kName = 4, kScaleField = 112, kShiftField = 136, kDescription = 160;
 
-std::uint8_t type_code(ColumnType type) {
-  switch (type) {
-    case ColumnType::kUint8:
-      return 1;
-    case ColumnType::kUint16:
-      return 3;
-    case ColumnType::kUint32:
-      return 5;
-    case ColumnType::kFloat32:
-      break;
-  }
-  return 9;
-}
+/// Types 1 to 10 in the order of their codes.
+constexpr std::array<ScalarType, 10> kScalarTypes{
+    ScalarType::kUint8, ScalarType::kInt8,   ScalarType::kUint16, ScalarType::kInt16,   ScalarType::kUint32,
+    ScalarType::kInt32, ScalarType::kUint64, ScalarType::kInt64,  ScalarType::kFloat32, ScalarType::kFloat64};
+constexpr std::uint8_t kHasScale = 8, kHasShift = 16;  ///< Option bits.
 
 std::size_t attribute_size(std::uint8_t type, std::uint8_t options) {
   if (type == 0) return options;
@@ -50,6 +43,16 @@ void add_undocumented(std::vector<std::byte>& entries, std::size_t size_bytes) {
     entry[kOptions] = static_cast<std::byte>(part);
     store_text(entry + kName, 32, "undocumented");
     size_bytes -= part;
+  }
+}
+
+void read_transform(const std::byte* entry, ExtraAttribute& attribute) {
+  const auto options = load<std::uint8_t>(entry + kOptions);
+  for (std::size_t i = 0; i < attribute.parts(); ++i) {
+    const auto scale = load<double>(entry + kScaleField + 8 * i);
+    const auto shift = load<double>(entry + kShiftField + 8 * i);
+    if ((options & kHasScale) != 0 && std::isfinite(scale) && scale != 0.0) attribute.scale[i] = scale;
+    if ((options & kHasShift) != 0 && std::isfinite(shift)) attribute.shift[i] = shift;
   }
 }
 
@@ -71,6 +74,7 @@ void read_attributes(ExtraBytes& extra, std::size_t first_offset) {
     attribute.description = field_text(entry + kDescription, 32);
     attribute.offset = first_offset + extra.described_bytes;
     attribute.size_bytes = attribute_size(attribute.type, load<std::uint8_t>(entry + kOptions));
+    if (attribute.type != 0) read_transform(entry, attribute);
     extra.described_bytes += attribute.size_bytes;
     extra.attributes.push_back(std::move(attribute));
   }
@@ -127,25 +131,50 @@ ExtraBytes read_extra_bytes(const InputFile& file, const LasFile& las) {
   return extra;
 }
 
+ScalarType ExtraAttribute::part_type() const {
+  return kScalarTypes[(type - 1U) % 10U];
+}
+
+std::uint8_t extra_type_code(ScalarType type) {
+  const auto found = std::find(kScalarTypes.begin(), kScalarTypes.end(), type);
+  return static_cast<std::uint8_t>(found - kScalarTypes.begin() + 1);
+}
+
+std::vector<std::byte> describe_attribute(std::uint8_t type, std::string_view name, std::string_view description) {
+  std::vector<std::byte> entry(kExtraBytesEntryBytes);
+  entry[kType] = static_cast<std::byte>(type);
+  store_text(&entry[kName], 32, name);
+  store_text(&entry[kDescription], 32, description);
+  return entry;
+}
+
 std::vector<std::byte> describe_columns(const std::vector<ColumnSpec>& columns) {
-  std::vector<std::byte> entries(columns.size() * kExtraBytesEntryBytes);
-  std::byte* entry = entries.data();
+  std::vector<std::byte> entries;
   for (const ColumnSpec& column : columns) {
-    entry[kType] = static_cast<std::byte>(type_code(column.type));
-    store_text(entry + kName, 32, column.name);
-    store_text(entry + kDescription, 32, column.description);
-    entry += kExtraBytesEntryBytes;
+    append(entries, describe_attribute(extra_type_code(scalar_type(column.type)), column.name, column.description));
   }
   return entries;
 }
 
-std::vector<std::byte> extra_bytes_vlr_header(std::size_t payload_bytes) {
+std::vector<std::byte> whole_description(const ExtraBytes& extra) {
+  std::vector<std::byte> entries;
+  if (extra.valid) entries = extra.entries;
+  add_undocumented(entries, extra.present_bytes - extra.described_bytes);
+  return entries;
+}
+
+std::vector<std::byte> vlr_header(std::string_view user_id, std::uint16_t record_id, std::size_t payload_bytes,
+                                  std::string_view description) {
   std::vector<std::byte> header(kVlrHeaderBytes);
-  store_text(header.data() + 2, 16, "LASF_Spec");
-  store<std::uint16_t>(header.data() + 18, kExtraBytesRecord);
+  store_text(header.data() + 2, 16, user_id);
+  store<std::uint16_t>(header.data() + 18, record_id);
   store<std::uint16_t>(header.data() + 20, static_cast<std::uint16_t>(payload_bytes));
-  store_text(header.data() + 22, 32, "Extra Bytes");
+  store_text(header.data() + 22, 32, description);
   return header;
+}
+
+std::vector<std::byte> extra_bytes_vlr_header(std::size_t payload_bytes) {
+  return vlr_header("LASF_Spec", kExtraBytesRecord, payload_bytes, "Extra Bytes");
 }
 
 ExtraBytesPlan plan_extra_bytes(const InputFile& file, const LasFile& las, const std::vector<ColumnSpec>& columns) {

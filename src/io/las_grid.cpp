@@ -49,7 +49,30 @@ LasGrid choose_las_grid(const WorldExtent& extent) {
     throw ConfigError(fmt::format(
         "coordinates up to {} from their middle do not fit LAS integers; remove outliers or write PLY", reach));
   }
-  grid.scale = power_of_ten(exponent);
+  grid.scale.fill(power_of_ten(exponent));
+  return grid;
+}
+
+LasGrid merge_las_grids(const std::vector<SourceInfo>& inputs, const WorldExtent& extent) {
+  LasGrid grid;
+  bool first = true;
+  for (const SourceInfo& input : inputs) {
+    if (!input.scaled_integers) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double scale = std::abs(input.scale[axis]);
+      if (first) grid.offset[axis] = input.offset[axis];
+      if (first || scale < std::abs(grid.scale[axis])) grid.scale[axis] = first ? input.scale[axis] : scale;
+    }
+    first = false;
+  }
+  if (first) return choose_las_grid(extent);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double min = extent.min[axis];
+    const double max = extent.max[axis];
+    if (!(min <= max) || (grid.stored(axis, min) && grid.stored(axis, max))) continue;
+    grid.offset[axis] = std::round(min / 2.0 + max / 2.0);
+    if (!grid.stored(axis, min) || !grid.stored(axis, max)) return choose_las_grid(extent);
+  }
   return grid;
 }
 

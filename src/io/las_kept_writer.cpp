@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "io/bytes.h"
+#include "io/crs_sharing.h"
 #include "io/kept_writers.h"
 #include "io/las_extra_bytes.h"
 #include "io/las_file.h"
@@ -30,7 +31,10 @@ class LasKeptWriter final : public KeptPointWriter {
       : input_(job.inputs[0].path),
         las_(read_las_file(input_, job.inputs[0].tolerance)),
         output_(job.path, job.options.overwrite) {
-    check_las_sharing(job.inputs, warnings_);
+    check_crs_sharing(job, warnings_);
+    if (const std::size_t left_out = later_extended_records(job.inputs); left_out > 0) {
+      warnings_.push_back(fmt::format("{} extended records of inputs after {} are left out", left_out, input_.name()));
+    }
     std::vector<std::string> taken;
     for (const ExtraAttribute& attribute : read_extra_bytes(input_, las_).attributes) taken.push_back(attribute.name);
     const std::vector<ColumnSpec> columns = rename_taken_columns(job.columns, taken, warnings_);

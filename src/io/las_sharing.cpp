@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <tuple>
+#include <algorithm>
 
 #include "io/bytes.h"
 #include "io/input_file.h"
-#include "io/kept_writers.h"
 #include "io/las_extra_bytes.h"
 #include "io/las_file.h"
 #include "io/las_layout.h"
@@ -14,24 +13,18 @@
 namespace arris::io {
 namespace {
 
-using CrsRecord = std::tuple<std::uint16_t, std::vector<std::byte>>;
-
 struct Shared {
   LasFile las;
   std::vector<std::byte> extra_entries;
-  std::vector<CrsRecord> crs;
+  std::size_t extra_bytes = 0;
 };
 
 Shared read_shared(const SourceInfo& input) {
-  constexpr std::size_t kMostCrsBytes = std::size_t{1} << 20;
   const InputFile file(input.path);
-  Shared shared{read_las_file(file, input.tolerance), {}, {}};
-  shared.extra_entries = read_extra_bytes(file, shared.las).entries;
-  for (const auto* records : {&shared.las.vlrs, &shared.las.evlrs}) {
-    for (const LasVlr& record : *records) {
-      if (is_crs_record(record)) shared.crs.emplace_back(record.record_id, read_payload(file, record, kMostCrsBytes));
-    }
-  }
+  Shared shared{read_las_file(file, input.tolerance), {}, 0};
+  ExtraBytes extra = read_extra_bytes(file, shared.las);
+  shared.extra_entries = std::move(extra.entries);
+  shared.extra_bytes = extra.present_bytes;
   return shared;
 }
 
@@ -47,6 +40,8 @@ std::string difference(const Shared& a, const Shared& b) {
   if (x.scale != y.scale) return fmt::format("scales {} and {}", triple(x.scale), triple(y.scale));
   if (x.offset != y.offset) return fmt::format("offsets {} and {}", triple(x.offset), triple(y.offset));
   if (a.extra_entries != b.extra_entries) return "different descriptions of extra bytes";
+  constexpr std::uint16_t kGpsTimeType = 1;
+  if (((x.global_encoding ^ y.global_encoding) & kGpsTimeType) != 0) return "GPS week time and adjusted GPS time";
   const bool waves = kLasPointLayouts[x.point_format].waveform != 0;
   const bool internal = ((x.global_encoding | y.global_encoding) & kEncodingInternalWaveforms) != 0;
   if (waves && internal) return "both may have waveforms, which are found by their place in the file";
@@ -55,26 +50,31 @@ std::string difference(const Shared& a, const Shared& b) {
 
 }  // namespace
 
-void check_las_sharing(const std::vector<SourceInfo>& inputs, std::vector<std::string>& warnings) {
-  if (inputs.size() < 2) return;
+std::string las_difference(const std::vector<SourceInfo>& inputs) {
+  if (inputs.size() < 2) return {};
   const Shared first = read_shared(inputs[0]);
-  bool crs_differ = false;
-  std::size_t left_out = 0;
   for (std::size_t i = 1; i < inputs.size(); ++i) {
-    const Shared other = read_shared(inputs[i]);
-    const std::string reason = difference(first, other);
-    if (!reason.empty()) refuse_sharing(inputs[0], inputs[i], reason);
-    crs_differ = crs_differ || other.crs != first.crs;
-    for (const LasVlr& record : other.las.evlrs) left_out += is_crs_record(record) ? 0 : 1;
+    const std::string reason = difference(first, read_shared(inputs[i]));
+    if (!reason.empty()) return reason;
   }
-  const std::string name = InputFile(inputs[0].path).name();
-  if (crs_differ) {
-    warnings.push_back(
-        fmt::format("the inputs have different coordinate reference systems; that of {} is written", name));
+  return {};
+}
+
+bool same_extra_bytes(const std::vector<SourceInfo>& inputs) {
+  const Shared first = read_shared(inputs.at(0));
+  return std::all_of(inputs.begin() + 1, inputs.end(), [&](const SourceInfo& input) {
+    const Shared other = read_shared(input);
+    return other.extra_bytes == first.extra_bytes && other.extra_entries == first.extra_entries;
+  });
+}
+
+std::size_t later_extended_records(const std::vector<SourceInfo>& inputs) {
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < inputs.size(); ++i) {
+    const InputFile file(inputs[i].path);
+    for (const LasVlr& record : read_las_file(file, inputs[i].tolerance).evlrs) count += is_crs_record(record) ? 0 : 1;
   }
-  if (left_out > 0) {
-    warnings.push_back(fmt::format("{} extended records of inputs after {} are left out", left_out, name));
-  }
+  return count;
 }
 
 }  // namespace arris::io

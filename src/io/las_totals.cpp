@@ -67,8 +67,8 @@ void correct_totals(std::span<std::byte> header, const LasTotals& totals) {
   }
 }
 
-std::array<std::byte, 375> make_las14_header(std::uint8_t point_format, std::size_t record_bytes, double scale,
-                                             const std::array<double, 3>& offset) {
+std::array<std::byte, 375> make_las14_header(std::uint8_t point_format, std::size_t record_bytes,
+                                             const std::array<double, 3>& scale, const std::array<double, 3>& offset) {
   std::array<std::byte, 375> header{};
   std::byte* raw = header.data();
   store_text(raw, 4, "LASF");
@@ -80,7 +80,7 @@ std::array<std::byte, 375> make_las14_header(std::uint8_t point_format, std::siz
   raw[kPointFormat] = static_cast<std::byte>(point_format);
   store<std::uint16_t>(raw + kRecordLength, static_cast<std::uint16_t>(record_bytes));
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    store<double>(raw + kScale + 8 * axis, scale);
+    store<double>(raw + kScale + 8 * axis, scale[axis]);
     store<double>(raw + kOffset + 8 * axis, offset[axis]);
   }
   return header;

@@ -50,7 +50,7 @@ void store_totals(std::span<std::byte> header, const LasTotals& totals);
 void correct_totals(std::span<std::byte> header, const LasTotals& totals);
 
 /// A LAS 1.4 header without points: scale and offset set, everything unused zero, WKT bit set.
-std::array<std::byte, 375> make_las14_header(std::uint8_t point_format, std::size_t record_bytes, double scale,
-                                             const std::array<double, 3>& offset);
+std::array<std::byte, 375> make_las14_header(std::uint8_t point_format, std::size_t record_bytes,
+                                             const std::array<double, 3>& scale, const std::array<double, 3>& offset);
 
 }  // namespace arris::io

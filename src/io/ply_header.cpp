@@ -19,15 +19,13 @@ constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 20;
 constexpr std::size_t kMaxElements = 4096;
 constexpr std::size_t kMaxProblems = 20;
 
-constexpr std::array<std::size_t, 10> kTypeBytes{1, 1, 2, 2, 4, 4, 4, 8, 8, 8};
-constexpr std::array<const char*, 10> kOldNames{"char", "uchar", "short",  "ushort", "int",
-                                                "uint", "float", "double", "int64",  "uint64"};
 constexpr std::array<const char*, 10> kNewNames{"int8",   "uint8",   "int16",   "uint16", "int32",
                                                 "uint32", "float32", "float64", "int64",  "uint64"};
 
-std::optional<PlyType> parse_type(std::string_view name) {
-  for (std::size_t i = 0; i < kOldNames.size(); ++i) {
-    if (name == kOldNames[i] || name == kNewNames[i]) return static_cast<PlyType>(i);
+std::optional<ScalarType> parse_type(std::string_view name) {
+  for (std::size_t i = 0; i < kNewNames.size(); ++i) {
+    const auto type = static_cast<ScalarType>(i);
+    if (name == type_name(type) || name == kNewNames[i]) return type;
   }
   return std::nullopt;
 }
@@ -173,7 +171,7 @@ class HeaderParser {
     header_.elements.back().properties.push_back(std::move(property));
   }
 
-  PlyType known_type(std::string_view name) const {
+  ScalarType known_type(std::string_view name) const {
     if (const auto type = parse_type(name)) return *type;
     refuse(fmt::format("unknown type \"{}\"", printable(name, 40)));
   }
@@ -207,13 +205,6 @@ class HeaderParser {
 
 }  // namespace
 
-std::size_t size_bytes(PlyType type) {
-  return kTypeBytes[static_cast<std::size_t>(type)];
-}
-const char* type_name(PlyType type) {
-  return kOldNames[static_cast<std::size_t>(type)];
-}
-
 bool PlyElement::has_list() const {
   return std::any_of(properties.begin(), properties.end(), [](const PlyProperty& p) { return p.is_list; });
 }
@@ -231,7 +222,7 @@ int PlyElement::find(std::string_view property) const {
   return -1;
 }
 
-const char* PlyHeader::format_name() const {
+const char* format_name(PlyFormat format) {
   return format == PlyFormat::kAscii          ? "ascii"
          : format == PlyFormat::kLittleEndian ? "binary_little_endian"
                                               : "binary_big_endian";

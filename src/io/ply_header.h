@@ -10,35 +10,20 @@
 
 #include "io/input_file.h"
 #include "io/point_source.h"
+#include "io/scalar_type.h"
 
 namespace arris::io {
 
 enum class PlyFormat : std::uint8_t { kAscii, kLittleEndian, kBigEndian };
-enum class PlyType : std::uint8_t {
-  kInt8,
-  kUint8,
-  kInt16,
-  kUint16,
-  kInt32,
-  kUint32,
-  kFloat32,
-  kFloat64,
-  kInt64,
-  kUint64
-};
 
-std::size_t size_bytes(PlyType type);
-constexpr bool is_integer(PlyType type) {
-  return type != PlyType::kFloat32 && type != PlyType::kFloat64;
-}
-/// The name most readers know: "uchar", "float", ...
-const char* type_name(PlyType type);
+/// "ascii", "binary_little_endian", "binary_big_endian"
+const char* format_name(PlyFormat format);
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::kFloat32;  ///< Of the value, or of each item of a list.
+  ScalarType type = ScalarType::kFloat32;  ///< Of the value, or of each item of a list.
   bool is_list = false;
-  PlyType count_type = PlyType::kUint8;  ///< Of a list's length; always an integer type.
+  ScalarType count_type = ScalarType::kUint8;  ///< Of a list's length; always an integer type.
 
   friend bool operator==(const PlyProperty&, const PlyProperty&) = default;
 };
@@ -67,7 +52,7 @@ struct PlyHeader {
   std::vector<Problem> problems;
 
   const PlyElement& vertices() const { return elements[vertex]; }
-  const char* format_name() const;
+  const char* format_name() const { return io::format_name(format); }
 };
 
 /// Reads and checks a header of at most 1 MiB (thus fewer than 65 536 properties), in linear time. Accepted: LF, CRLF

@@ -31,7 +31,6 @@ class PlyKeptWriter final : public KeptPointWriter {
  public:
   explicit PlyKeptWriter(const KeptJob& job)
       : input_(job.inputs[0].path), header_(read_ply_header(input_)), output_(job.path, job.options.overwrite) {
-    check_ply_sharing(job.inputs, /*same_encoding=*/true);
     std::vector<std::string> taken;
     for (const PlyProperty& property : header_.vertices().properties) taken.push_back(property.name);
     columns_ = rename_taken_columns(job.columns, taken, warnings_);

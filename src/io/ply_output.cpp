@@ -66,6 +66,32 @@ std::string ply_column_lines(const std::vector<ColumnSpec>& columns, std::string
   return lines;
 }
 
+void encode_value(PlyFormat format, ScalarType type, double value, std::vector<std::byte>& out) {
+  std::array<std::byte, 8> bytes{};
+  store_scalar(type, value, bytes.data());
+  const std::size_t size = size_bytes(type);
+  if (format == PlyFormat::kLittleEndian) {
+    out.insert(out.end(), bytes.data(), bytes.data() + size);
+  } else if (format == PlyFormat::kBigEndian) {
+    out.insert(out.end(), std::reverse_iterator(bytes.data() + size), std::reverse_iterator(bytes.data()));
+  } else {
+    std::string text = out.empty() ? "" : " ";
+    if (type == ScalarType::kFloat32) {
+      text += fmt::format("{}", static_cast<float>(value));
+    } else if (type == ScalarType::kFloat64) {
+      text += fmt::format("{}", value);
+    } else if (type == ScalarType::kUint64) {
+      text += fmt::format("{}", load<std::uint64_t>(bytes.data()));
+    } else if (type == ScalarType::kInt64) {
+      text += fmt::format("{}", load<std::int64_t>(bytes.data()));
+    } else {
+      text += fmt::format("{:.0f}", load_scalar(type, bytes.data()));
+    }
+    const auto* first = reinterpret_cast<const std::byte*>(text.data());
+    out.insert(out.end(), first, first + text.size());
+  }
+}
+
 void encode_row(PlyFormat format, const std::vector<ColumnSpec>& columns, const std::byte* row,
                 std::vector<std::byte>& out) {
   for (const ColumnSpec& column : columns) {

@@ -21,6 +21,13 @@ bool is_count_comment(std::string_view line);
 /// "property <type> <name>" lines of our columns.
 std::string ply_column_lines(const std::vector<ColumnSpec>& columns, std::string_view line_end);
 
+/// Begins the comment that names the coordinate reference system of points that came from LAS.
+inline constexpr std::string_view kPlyCrsComment = "comment crs ";
+
+/// Appends one value in the file's format, integers rounded; in ascii all but the first of a line are preceded by a
+/// blank.
+void encode_value(PlyFormat format, ScalarType type, double value, std::vector<std::byte>& out);
+
 /// Appends one row of our columns in the file's format; in ascii each value is preceded by a blank. Numbers are printed
 /// with the fewest digits that give the same value back.
 void encode_row(PlyFormat format, const std::vector<ColumnSpec>& columns, const std::byte* row,

@@ -41,27 +41,27 @@ bool parse_number(std::string_view token, double& value) {
 }
 
 template <std::endian kOrder>
-double load_as_double(PlyType type, const std::byte* at) {
+double load_as_double(ScalarType type, const std::byte* at) {
   switch (type) {
-    case PlyType::kInt8:
+    case ScalarType::kInt8:
       return load<std::int8_t, kOrder>(at);
-    case PlyType::kUint8:
+    case ScalarType::kUint8:
       return load<std::uint8_t, kOrder>(at);
-    case PlyType::kInt16:
+    case ScalarType::kInt16:
       return load<std::int16_t, kOrder>(at);
-    case PlyType::kUint16:
+    case ScalarType::kUint16:
       return load<std::uint16_t, kOrder>(at);
-    case PlyType::kInt32:
+    case ScalarType::kInt32:
       return load<std::int32_t, kOrder>(at);
-    case PlyType::kUint32:
+    case ScalarType::kUint32:
       return load<std::uint32_t, kOrder>(at);
-    case PlyType::kFloat32:
+    case ScalarType::kFloat32:
       return static_cast<double>(load<float, kOrder>(at));
-    case PlyType::kFloat64:
+    case ScalarType::kFloat64:
       return load<double, kOrder>(at);
-    case PlyType::kInt64:
+    case ScalarType::kInt64:
       return static_cast<double>(load<std::int64_t, kOrder>(at));
-    case PlyType::kUint64:
+    case ScalarType::kUint64:
       break;
   }
   return static_cast<double>(load<std::uint64_t, kOrder>(at));
@@ -69,7 +69,7 @@ double load_as_double(PlyType type, const std::byte* at) {
 
 }  // namespace
 
-double load_ply_value(PlyFormat format, PlyType type, const std::byte* at) {
+double load_ply_value(PlyFormat format, ScalarType type, const std::byte* at) {
   return format == PlyFormat::kBigEndian ? load_as_double<std::endian::big>(type, at)
                                          : load_as_double<std::endian::little>(type, at);
 }

@@ -53,6 +53,6 @@ class PlyRecordWalker {
 };
 
 /// A binary value as double; 64-bit integers are rounded.
-double load_ply_value(PlyFormat format, PlyType type, const std::byte* at);
+double load_ply_value(PlyFormat format, ScalarType type, const std::byte* at);
 
 }  // namespace arris::io

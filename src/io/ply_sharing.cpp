@@ -7,7 +7,6 @@
 
 #include "core/text.h"
 #include "io/input_file.h"
-#include "io/kept_writers.h"
 
 namespace arris::io {
 namespace {
@@ -20,8 +19,8 @@ std::string property_text(const std::vector<PlyProperty>& properties, std::size_
                    : fmt::format("{} {}", type_name(p.type), name);
 }
 
-std::string difference(const PlyHeader& a, const PlyHeader& b, bool same_encoding) {
-  if (same_encoding && a.format != b.format) return fmt::format("formats {} and {}", a.format_name(), b.format_name());
+std::string difference(const PlyHeader& a, const PlyHeader& b) {
+  if (a.format != b.format) return fmt::format("formats {} and {}", a.format_name(), b.format_name());
   const auto& x = a.vertices().properties;
   const auto& y = b.vertices().properties;
   const auto [at, other] = std::mismatch(x.begin(), x.end(), y.begin(), y.end());
@@ -42,13 +41,14 @@ bool speaks_of_vertices(std::string name) {
 
 }  // namespace
 
-void check_ply_sharing(const std::vector<SourceInfo>& inputs, bool same_encoding) {
-  if (inputs.size() < 2) return;
+std::string ply_difference(const std::vector<SourceInfo>& inputs) {
+  if (inputs.size() < 2) return {};
   const PlyHeader first = read_ply_header(InputFile(inputs[0].path));
   for (std::size_t i = 1; i < inputs.size(); ++i) {
-    const std::string reason = difference(first, read_ply_header(InputFile(inputs[i].path)), same_encoding);
-    if (!reason.empty()) refuse_sharing(inputs[0], inputs[i], reason);
+    const std::string reason = difference(first, read_ply_header(InputFile(inputs[i].path)));
+    if (!reason.empty()) return reason;
   }
+  return {};
 }
 
 bool refers_to_vertices(const PlyElement& element) {

@@ -78,27 +78,27 @@ void decode_axis(const std::byte* at, std::size_t stride, std::size_t count, dou
 }
 
 template <std::endian kOrder>
-void decode_axis_of_type(PlyType type, const std::byte* at, std::size_t stride, std::size_t count, double* out) {
+void decode_axis_of_type(ScalarType type, const std::byte* at, std::size_t stride, std::size_t count, double* out) {
   switch (type) {
-    case PlyType::kInt8:
+    case ScalarType::kInt8:
       return decode_axis<std::int8_t, kOrder>(at, stride, count, out);
-    case PlyType::kUint8:
+    case ScalarType::kUint8:
       return decode_axis<std::uint8_t, kOrder>(at, stride, count, out);
-    case PlyType::kInt16:
+    case ScalarType::kInt16:
       return decode_axis<std::int16_t, kOrder>(at, stride, count, out);
-    case PlyType::kUint16:
+    case ScalarType::kUint16:
       return decode_axis<std::uint16_t, kOrder>(at, stride, count, out);
-    case PlyType::kInt32:
+    case ScalarType::kInt32:
       return decode_axis<std::int32_t, kOrder>(at, stride, count, out);
-    case PlyType::kUint32:
+    case ScalarType::kUint32:
       return decode_axis<std::uint32_t, kOrder>(at, stride, count, out);
-    case PlyType::kFloat32:
+    case ScalarType::kFloat32:
       return decode_axis<float, kOrder>(at, stride, count, out);
-    case PlyType::kFloat64:
+    case ScalarType::kFloat64:
       return decode_axis<double, kOrder>(at, stride, count, out);
-    case PlyType::kInt64:
+    case ScalarType::kInt64:
       return decode_axis<std::int64_t, kOrder>(at, stride, count, out);
-    case PlyType::kUint64:
+    case ScalarType::kUint64:
       return decode_axis<std::uint64_t, kOrder>(at, stride, count, out);
   }
 }
@@ -170,7 +170,7 @@ class PlyFixedSource final : public PointSource {
   PlyHeader header_;
   SourceInfo info_;
   std::uint64_t begin_ = 0;  ///< Offset in the file of the first vertex.
-  std::array<PlyType, 3> types_{};
+  std::array<ScalarType, 3> types_{};
   std::array<std::size_t, 3> offsets_{};
   std::uint64_t next_ = 0;
   std::vector<std::byte> block_;

@@ -61,6 +61,13 @@ struct PointBatch {
   std::vector<std::size_t> record_begin;  ///< count + 1 entries, or empty.
 };
 
+/// Coordinate of a point of a batch read from that source, in world units.
+inline double world_coordinate(const SourceInfo& source, const PointBatch& batch, std::size_t point, std::size_t axis) {
+  if (!source.scaled_integers) return (axis == 0 ? batch.x : axis == 1 ? batch.y : batch.z)[point];
+  const std::int32_t stored = (axis == 0 ? batch.ix : axis == 1 ? batch.iy : batch.iz)[point];
+  return static_cast<double>(stored) * source.scale[axis] + source.offset[axis];
+}
+
 struct ReadOptions {
   bool records = false;  ///< Deliver the original records as well as the coordinates.
   /// Most points per batch, >= 1. Batches may be smaller: their records take about 4 MiB at most, or one longer record.

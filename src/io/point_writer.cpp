@@ -9,6 +9,8 @@
 #include "core/text.h"
 #include "io/fresh_cloud_writers.h"
 #include "io/kept_writers.h"
+#include "io/las_sharing.h"
+#include "io/ply_sharing.h"
 
 namespace arris::io {
 namespace {
@@ -49,17 +51,21 @@ std::unique_ptr<KeptPointWriter> create_kept_point_writer(const fs::path& path, 
   const Format format = format_of(path);
   check_columns(columns);
   const KeptJob job{path, inputs.sources(), columns, options};
+  bool all_las = true;
+  bool all_ply = true;
   for (const SourceInfo& input : job.inputs) {
     std::error_code ignored;
     if (fs::equivalent(path, input.path, ignored)) {
       throw ConfigError(fmt::format("{}: is an input as well; choose another name for the output", shown(path)));
     }
-    if (input.format != job.inputs[0].format) refuse_sharing(job.inputs[0], input, "one is LAS, the other PLY");
+    all_las = all_las && input.format == Format::kLas;
+    all_ply = all_ply && input.format == Format::kPly;
   }
-  if (job.inputs[0].format == Format::kLas) {
-    return format == Format::kLas ? create_las_kept_writer(job) : create_las_to_ply_writer(job);
+  if (format == Format::kLas) {
+    return all_las && las_difference(job.inputs).empty() ? create_las_kept_writer(job)
+                                                         : create_converted_las_writer(job);
   }
-  return format == Format::kLas ? create_ply_to_las_writer(job) : create_ply_kept_writer(job);
+  return all_ply && ply_difference(job.inputs).empty() ? create_ply_kept_writer(job) : create_converted_ply_writer(job);
 }
 
 std::unique_ptr<FreshCloudWriter> create_fresh_cloud_writer(const fs::path& path, const FreshCloud& cloud,
@@ -102,11 +108,6 @@ void copy_bytes(const InputFile& from, std::uint64_t begin, std::uint64_t end, O
     to.write(std::span<const std::byte>(part));
     begin += part.size();
   }
-}
-
-void refuse_sharing(const SourceInfo& first, const SourceInfo& other, const std::string& difference) {
-  throw ConfigError(fmt::format("{} and {} cannot share one output: {}; process them separately or convert one of them",
-                                shown(first.path), shown(other.path), difference));
 }
 
 }  // namespace arris::io

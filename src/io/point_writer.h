@@ -32,6 +32,8 @@ struct OutputOptions {
   bool overwrite = false;
   /// The caller will append every point of the inputs: PLY elements that refer to vertices by number stay valid then.
   bool every_point = false;
+  /// Inputs with different coordinate reference systems go into one output, which names the first one.
+  bool mixed_crs = false;
   /// Extent of all points of the inputs, if the caller knows it: saves PLY -> LAS a pass over them to choose scale and
   /// offset.
   std::optional<WorldExtent> extent{};
@@ -51,11 +53,12 @@ class KeptPointWriter {
   virtual const std::vector<std::string>& warnings() const = 0;
 };
 
-/// The extension of `path` picks the format (.las, .ply; otherwise ConfigError). Same format as the inputs: original
-/// bytes of every kept record are copied bit for bit, VLRs/EVLRs, scale, offset, property order, endianness and
-/// comments kept, our columns appended (LAS: extra bytes with their VLR, PLY: properties at the end of the vertex
-/// element). Other format: documented conversion. Inputs whose layouts cannot share one output give a ConfigError that
-/// says why.
+/// The extension of `path` picks the format (.las, .ply; otherwise ConfigError). Inputs of that format with one layout:
+/// original bytes of every kept record are copied bit for bit, VLRs/EVLRs, scale, offset, property order, endianness
+/// and comments kept, our columns appended (LAS: extra bytes with their VLR, PLY: properties at the end of the vertex
+/// element). Inputs of the other format, of both, or of different layouts: conversion field by field (docs/formats.md)
+/// to the layout that holds all their attributes. Different coordinate reference systems are a ConfigError unless
+/// options.mixed_crs.
 std::unique_ptr<KeptPointWriter> create_kept_point_writer(const std::filesystem::path& path, const InputSet& inputs,
                                                           const std::vector<ColumnSpec>& columns,
                                                           const OutputOptions& options);

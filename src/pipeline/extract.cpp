@@ -130,6 +130,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
   io::OutputOptions output_options;
   output_options.overwrite = request.overwrite;
   output_options.every_point = request.keep_all;
+  output_options.mixed_crs = request.mixed_crs;
   std::vector<std::unique_ptr<io::KeptPointWriter>> writers;
   for (const std::filesystem::path& output : request.outputs) {
     writers.push_back(io::create_kept_point_writer(output, inputs, contour_columns(), output_options));

@@ -26,6 +26,7 @@ struct ExtractRequest {
   std::uint64_t tile_points_cap = 0;           ///< For tests and tuning; 0: chosen.
   double lattice_step = 0.0;                   ///< 0: chosen (tiling/survey.h).
   bool overwrite = false;
+  bool mixed_crs = false;    ///< Take inputs with different coordinate reference systems for one.
   bool keep_all = false;     ///< Write every point, not only contour points.
   bool hash_inputs = false;  ///< Put content hashes into the report (reads the inputs once more).
 };
