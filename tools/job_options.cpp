@@ -81,6 +81,16 @@ std::uint64_t parse_tile_points(const std::string& text) {
   return points;
 }
 
+io::PointExclusion parse_exclusion(const JobOptions& o) {
+  io::PointExclusion exclusion;
+  for (const std::string& name : o.exclude) {
+    const unsigned bit = name == "synthetic" ? 1U : name == "key-point" ? 2U : name == "withheld" ? 4U : 8U;
+    exclusion.flags = static_cast<std::uint8_t>(exclusion.flags | bit);
+  }
+  for (const int label : o.exclude_classes) exclusion.classes.set(static_cast<std::size_t>(label));
+  return exclusion;
+}
+
 double length_or(const std::string& text, double otherwise) {
   return text.empty() ? otherwise : parse_length(text);
 }
@@ -90,6 +100,15 @@ double length_or(const std::string& text, double otherwise) {
 void add_job_options(CLI::App& verb, JobOptions& o) {
   verb.add_option("inputs", o.inputs, "LAS and PLY files, or folders of them; one input, in this order")->required();
   add_tolerance_options(verb, o.tolerance);
+  verb.add_option("--exclude", o.exclude,
+                  "LAS points with these flags take no part: withheld, overlap, synthetic, key-point")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"withheld", "overlap", "synthetic", "key-point"}));
+  verb.add_option("--exclude-class", o.exclude_classes, "LAS points of these classes take no part (7,18 is noise)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0, 255));
   verb.add_option("--method", o.method, "Method")->check(CLI::IsMember({"liu"}))->capture_default_str();
   verb.add_option("--memory", o.memory,
                   "Bound on the memory of the whole process: 8GiB, 512MiB, 60% (default 75% of what there is)");
@@ -109,6 +128,7 @@ pipeline::ExtractRequest to_request(JobOptions& o, const CLI::App& verb) {
   pipeline::ExtractRequest request;
   request.inputs = o.inputs;
   request.tolerance = o.tolerance.tolerance();
+  request.exclusion = parse_exclusion(o);
   request.memory_bytes = resolve_memory(o.memory, o.memory_why);
   request.threads = resolve_threads(o.threads);
   request.temp_dir = o.temp_dir.empty() ? std::filesystem::temp_directory_path() : std::filesystem::path(o.temp_dir);

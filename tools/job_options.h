@@ -32,6 +32,8 @@ struct JobOptions {
   bool no_boundary = false;
   bool no_fold = false;
   ToleranceOptions tolerance;
+  std::vector<std::string> exclude;
+  std::vector<int> exclude_classes;
   DisplayOptions display;
   std::string memory_why;
 };

@@ -9,10 +9,14 @@
 #include "io/las_crs.h"
 #include "io/las_extra_bytes.h"
 #include "io/las_file.h"
+#include "io/las_layout.h"
 #include "io/read_limits.h"
 
 namespace arris::io {
 namespace {
+
+/// Point formats 0 to 5 say overlap with a class.
+constexpr unsigned kLegacyOverlapClass = 12;
 
 class LasSource final : public PointSource {
  public:
@@ -46,13 +50,15 @@ class LasSource final : public PointSource {
     for (auto* stored : {&batch.ix, &batch.iy, &batch.iz}) stored->resize(count);
     for (auto* world : {&batch.x, &batch.y, &batch.z}) world->clear();
     prepare_records(batch, options.records, info_.record_bytes);
+    batch.excluded.assign(options.exclusion.any() ? count : 0, 0);
     if (count == 0) return false;
     const std::uint64_t begin = las_.header.offset_to_points + next_ * info_.record_bytes;
     if (options.records) {
       file_->read(begin, batch.records);
       decode(batch.records.data(), 0, count, batch);
+      mark_excluded(options.exclusion, batch.records.data(), 0, batch, count);
     } else {
-      read_coordinates(begin, batch);
+      read_coordinates(begin, options.exclusion, batch);
     }
     next_ += count;
     return true;
@@ -60,13 +66,27 @@ class LasSource final : public PointSource {
 
  private:
   /// Reads in blocks that stay in the cache between the system's copy and the decoding.
-  void read_coordinates(std::uint64_t begin, PointBatch& batch) {
+  void read_coordinates(std::uint64_t begin, const PointExclusion& exclusion, PointBatch& batch) {
     const std::size_t block_points = std::max<std::size_t>(1, kReadBlockBytes / info_.record_bytes);
     block_.resize(std::min(block_points, batch.count) * info_.record_bytes);
     for (std::size_t first = 0; first < batch.count; first += block_points) {
       const std::size_t count = std::min(block_points, batch.count - first);
       file_->read(begin + first * info_.record_bytes, std::span(block_).first(count * info_.record_bytes));
       decode(block_.data(), first, count, batch);
+      mark_excluded(exclusion, block_.data(), first, batch, count);
+    }
+  }
+
+  void mark_excluded(const PointExclusion& exclusion, const std::byte* record, std::size_t first, PointBatch& batch,
+                     std::size_t count) const {
+    if (!exclusion.any()) return;
+    const bool extended = is_extended_format(las_.header.point_format);
+    for (std::size_t i = first; i < first + count; ++i, record += info_.record_bytes) {
+      const auto packed = load<std::uint8_t>(record + 15);
+      const unsigned label = extended ? load<std::uint8_t>(record + 16) : packed & 31U;
+      unsigned flags = extended ? packed & 15U : packed >> 5;
+      if (!extended && label == kLegacyOverlapClass) flags |= 8;
+      batch.excluded[i] = (flags & exclusion.flags) != 0 || exclusion.classes[label];
     }
   }
 

@@ -68,6 +68,7 @@ void note_short_elements(const InputFile& file, const PlyHeader& header, std::ui
 void start_batch(PointBatch& batch, std::uint64_t first_id, std::size_t count) {
   batch.first_id = first_id;
   batch.count = count;
+  batch.excluded.clear();
   for (auto* stored : {&batch.ix, &batch.iy, &batch.iz}) stored->clear();
   for (auto* world : {&batch.x, &batch.y, &batch.z}) world->resize(count);
 }

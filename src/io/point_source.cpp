@@ -135,7 +135,9 @@ void InputSet::rewind() {
   first_id_ = 0;
 }
 
-bool InputSet::read(PointBatch& batch, const ReadOptions& options) {
+bool InputSet::read(PointBatch& batch, const ReadOptions& wanted) {
+  ReadOptions options = wanted;
+  if (exclusion_.any()) options.exclusion = exclusion_;
   for (;;) {
     if (open_ && open_->read(batch, options)) {
       batch.first_id += first_id_;

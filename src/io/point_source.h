@@ -2,6 +2,7 @@
 /// @file Streams of points from files: what every format's reader offers to the rest of arris.
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -47,6 +48,13 @@ struct SourceInfo {
   std::int64_t modified_ns = 0;             ///< Time of the file's last change, nanoseconds since 1970.
 };
 
+/// Points that are to take no part, by what LAS says of them. (PLY points are never excluded.)
+struct PointExclusion {
+  std::uint8_t flags = 0;    ///< Any of: 1 synthetic, 2 key point, 4 withheld, 8 overlap (also class 12 of 0-5).
+  std::bitset<256> classes;  ///< Classifications.
+  bool any() const { return flags != 0 || classes.any(); }
+};
+
 /// Points as structure of arrays; capacity is reused from call to call.
 struct PointBatch {
   std::uint64_t first_id = 0;  ///< Global id of the first point: its index over all inputs in the order given.
@@ -56,6 +64,8 @@ struct PointBatch {
   /// World coordinates, `count` each; only if not scaled_integers. May hold NaN and infinities. A number in a PLY ascii
   /// file is taken with all its digits, even where its property is declared float.
   std::vector<double> x, y, z;
+  /// Nonzero for points that ReadOptions::exclusion names; empty if there are none to look for.
+  std::vector<std::uint8_t> excluded;
   /// Original records, only if asked for: point i occupies records[record_begin[i], record_begin[i + 1]).
   std::vector<std::byte> records;
   std::vector<std::size_t> record_begin;  ///< count + 1 entries, or empty.
@@ -72,6 +82,7 @@ struct ReadOptions {
   bool records = false;  ///< Deliver the original records as well as the coordinates.
   /// Most points per batch, >= 1. Batches may be smaller: their records take about 4 MiB at most, or one longer record.
   std::size_t batch_points = 64 * 1024;
+  PointExclusion exclusion{};
 };
 
 /// One file as a rewindable stream. Memory is bounded by the batch and a fixed read buffer (not mapped: a file that is
@@ -109,6 +120,8 @@ class InputSet {
   /// As PointSource::read, with global ids. A batch never crosses a file: source_index() tells which one it came from.
   bool read(PointBatch& batch, const ReadOptions& options);
   std::size_t source_index() const { return current_; }
+  /// For all reads from now on, instead of what their options say.
+  void exclude(const PointExclusion& exclusion) { exclusion_ = exclusion; }
   /// Throws InputError if a file is no longer what it was when the set was made (size, time of change).
   void check_unchanged() const;
 
@@ -119,6 +132,7 @@ class InputSet {
   std::size_t next_ = 0;        ///< Source to open next.
   std::uint64_t first_id_ = 0;  ///< Global id of the first point of the open source.
   std::unique_ptr<PointSource> open_;
+  PointExclusion exclusion_;
 };
 
 }  // namespace arris::io

@@ -105,6 +105,7 @@ ExtractReport plan_only(const ExtractRequest& request, ProgressSink& progress, c
   RecordingSink sink(progress, report);
   Stopwatch watch(report);
   io::InputSet inputs(io::expand_inputs(request.inputs), request.tolerance);
+  inputs.exclude(request.exclusion);
   const JobPlan plan = plan_job(inputs, request, sink, cancel);
   describe_plan(plan, inputs, request, report);
   warn_of_dropped(report, sink);
@@ -137,6 +138,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     report.outputs.push_back(output.string());
   }
 
+  inputs.exclude(request.exclusion);
   const JobPlan plan = plan_job(inputs, request, sink, cancel);
   describe_plan(plan, inputs, request, report);
   warn_of_dropped(report, sink);

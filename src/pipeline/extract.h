@@ -17,6 +17,7 @@ namespace arris::pipeline {
 struct ExtractRequest {
   std::vector<std::string> inputs;  ///< Files and folders.
   io::Tolerance tolerance = io::Tolerance::kUsual;
+  io::PointExclusion exclusion;  ///< Points that take no part; with keep_all they are written all the same.
   std::vector<std::filesystem::path> outputs;  ///< The extension picks the format; at least one.
   LiuParameters liu;                           ///< max_radius 0: resolved from the survey.
   std::uint64_t memory_bytes = 0;              ///< Bound on the resident memory of the whole process, > 0.

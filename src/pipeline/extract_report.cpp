@@ -56,7 +56,10 @@ Json to_json(const ExtractReport& r) {
   json["points"] = {{"in", r.points_in},
                     {"out", r.points_out},
                     {"not_contour", r.not_contour},
-                    {"dropped", {{"non_finite", r.dropped_nonfinite}, {"out_of_range", r.dropped_out_of_range}}}};
+                    {"dropped",
+                     {{"non_finite", r.dropped_nonfinite},
+                      {"out_of_range", r.dropped_out_of_range},
+                      {"excluded", r.dropped_excluded}}}};
   json["edges"] = {
       {"boundary", r.boundary}, {"weak_boundary", r.weak_boundary}, {"fold", r.fold}, {"isolated_points", r.isolated}};
   json["tiles"] = {{"count", r.tiles},

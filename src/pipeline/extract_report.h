@@ -35,12 +35,13 @@ struct ExtractReport {
   std::vector<std::string> outputs;
   std::vector<WarningReport> warnings;
 
-  // points_in = points_out + not_contour + dropped_nonfinite + dropped_out_of_range (without keep_all).
+  // points_in = points_out + not_contour + all dropped ones (without keep_all).
   std::uint64_t points_in = 0;
   std::uint64_t points_out = 0;
   std::uint64_t not_contour = 0;
   std::uint64_t dropped_nonfinite = 0;
   std::uint64_t dropped_out_of_range = 0;
+  std::uint64_t dropped_excluded = 0;
   std::uint64_t boundary = 0;
   std::uint64_t weak_boundary = 0;
   std::uint64_t fold = 0;

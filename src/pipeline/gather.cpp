@@ -70,7 +70,8 @@ void gather_points(io::InputSet& inputs, const ExtractRequest& request, const Li
     progress.advance(batch.count);
   }
   if (!request.keep_all) {
-    report.not_contour = report.points_in - report.points_out - report.dropped_nonfinite - report.dropped_out_of_range;
+    report.not_contour = report.points_in - report.points_out - report.dropped_nonfinite - report.dropped_out_of_range -
+                         report.dropped_excluded;
   }
 }
 

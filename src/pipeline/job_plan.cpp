@@ -97,6 +97,7 @@ void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const Extrac
   report.points_in = plan.survey.points_in;
   report.dropped_nonfinite = plan.survey.dropped_nonfinite;
   report.dropped_out_of_range = plan.survey.dropped_out_of_range;
+  report.dropped_excluded = plan.survey.dropped_excluded;
   report.tiles = plan.tiles.tiles.size();
   report.largest_tile_points = plan.tiles.largest_covered_points;
   report.tile_points_limit = plan.memory.max_tile_points;

@@ -50,6 +50,14 @@ Mapped LatticeMapper::map_world(const std::array<double, 3>& world, LatticePoint
 
 void LatticeMapper::map(const io::PointBatch& batch, std::size_t source_index, std::vector<LatticePoint>& positions,
                         std::vector<Mapped>& outcome) const {
+  map_positions(batch, source_index, positions, outcome);
+  for (std::size_t i = 0; i < batch.excluded.size(); ++i) {
+    if (batch.excluded[i] != 0) outcome[i] = Mapped::kExcluded;
+  }
+}
+
+void LatticeMapper::map_positions(const io::PointBatch& batch, std::size_t source_index,
+                                  std::vector<LatticePoint>& positions, std::vector<Mapped>& outcome) const {
   const SourceMapping& m = mappings_.at(source_index);
   positions.resize(batch.count);
   outcome.assign(batch.count, Mapped::kOk);

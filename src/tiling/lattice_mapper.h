@@ -11,7 +11,7 @@
 namespace arris::tiling {
 
 /// What became of a point's coordinates.
-enum class Mapped : std::uint8_t { kOk, kNonFinite, kOutOfRange };
+enum class Mapped : std::uint8_t { kOk, kNonFinite, kOutOfRange, kExcluded };
 
 /// For LAS sources whose scales are whole multiples of the step the mapping is integer arithmetic: exact where the
 /// offset agrees with the lattice too, else the same rounding for every point. Other coordinates go to the nearest
@@ -34,6 +34,8 @@ class LatticeMapper {
     std::array<double, 3> scale{1, 1, 1};
     std::array<double, 3> offset{0, 0, 0};
   };
+  void map_positions(const io::PointBatch& batch, std::size_t source_index, std::vector<LatticePoint>& positions,
+                     std::vector<Mapped>& outcome) const;
   Mapped map_world(const std::array<double, 3>& world, LatticePoint& position) const;
 
   Lattice lattice_;

@@ -23,6 +23,7 @@ void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped
   for (const Mapped mapped : outcome) {
     dropped_nonfinite += mapped == Mapped::kNonFinite;
     dropped_out_of_range += mapped == Mapped::kOutOfRange;
+    dropped_excluded += mapped == Mapped::kExcluded;
   }
 }
 

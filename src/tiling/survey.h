@@ -28,12 +28,13 @@ struct Survey {
   std::uint64_t points_in = 0;             ///< Points read.
   std::uint64_t dropped_nonfinite = 0;     ///< NaN or infinite coordinates: they take no part and stay unlabelled.
   std::uint64_t dropped_out_of_range = 0;  ///< Finite, but not representable on the lattice.
+  std::uint64_t dropped_excluded = 0;      ///< Excluded by the caller (InputSet::exclude).
   /// Typical spacing in data units: median over points of cell / sqrt(count of the cell), on the finest level at which
   /// the median count is at least 16 (coarser levels are made from finer ones). 0 for empty input; spacing.h has the
   /// degenerate cases.
   double spacing = 0.0;
   CellCounts counts;  ///< Points per absolute cell of 2^k lattice steps.
-  std::uint64_t points() const { return points_in - dropped_nonfinite - dropped_out_of_range; }
+  std::uint64_t points() const { return points_in - dropped_nonfinite - dropped_out_of_range - dropped_excluded; }
 
   /// Counts a batch of mapped points (equal lengths).
   void add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome);
