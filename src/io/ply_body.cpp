@@ -73,6 +73,9 @@ WholeRecords count_whole_records(const InputFile& file, const PlyHeader& header,
     } catch (const InputError&) {
       return {i, window.position()};
     }
+    // A number that ends with the file, before the last record, may be cut itself.
+    const bool touches_end = window.position() + walker.end() == file.size_bytes();
+    if (header.format == PlyFormat::kAscii && touches_end && i + 1 < counted.count) return {i, window.position()};
     window.consume(walker.end());
   }
   return {counted.count, window.position()};
