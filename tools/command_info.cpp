@@ -32,6 +32,9 @@ void read_points(InfoReport& report, ProgressSink& progress, const CancelToken& 
     cancel.check();
     progress.advance(points);
   });
+  const std::vector<io::Problem>& all = source->info().problems;  // Some show only when points are read.
+  report.file.problems.insert(report.file.problems.end(),
+                              all.begin() + static_cast<std::ptrdiff_t>(info.problems.size()), all.end());
   for (io::Problem& problem : io::find_point_problems(*file, info, *report.points))
     report.file.problems.push_back(std::move(problem));
   io::InputSet inputs({info.path}, info.tolerance);

@@ -38,6 +38,7 @@ class PlyKeptWriter final : public KeptPointWriter {
     if (job.options.every_point)
       expected_ = std::accumulate(job.inputs.begin(), job.inputs.end(), std::uint64_t{0},
                                   [](std::uint64_t sum, const SourceInfo& input) { return sum + input.points; });
+    salvage_ = job.inputs[0].tolerance == Tolerance::kSalvage;
     // Vertices keep their numbers if all of them are written and nothing else is.
     choose_elements(job.options.every_point && job.inputs.size() == 1 &&
                     job.inputs[0].points == header_.vertices().count);
@@ -66,6 +67,7 @@ class PlyKeptWriter final : public KeptPointWriter {
   void commit() override {
     assert(!expected_ || *expected_ == count_);
     for (std::size_t i = header_.vertex + 1; i < header_.elements.size(); ++i) write_element(i);
+    if (rest_begin_) copy_rest(*rest_begin_, input_.size_bytes());
     const std::string lines = ply_count_lines(count_, header_.line_end);
     output_.patch(count_at_, std::as_bytes(std::span(lines)));
     output_.commit();
@@ -93,19 +95,22 @@ class PlyKeptWriter final : public KeptPointWriter {
                                       input_.name(), printable(element.name, 40), element.count));
     }
     std::uint64_t at = header_.body_begin;
+    if (numbers_stay) last = header_.vertex + 1;  // What follows is copied to the end of the file, whatever it is.
     for (std::size_t i = 0; i < last; ++i) {
       fates_[i].begin = at;
       try {
         at = skip_ply_element(input_, header_, i, at);
-      } catch (const InputError& error) {
-        if (i <= header_.vertex) throw;
-        for (std::size_t j = i; j < last; ++j) fates_[j].carried = false;
-        warnings_.push_back(
-            fmt::format("elements from {} on are left out: {}", printable(header_.elements[i].name, 40), error.what()));
-        break;
+      } catch (const InputError&) {
+        if (i < header_.vertex || (i == header_.vertex && !salvage_)) throw;
+        const std::size_t lost = std::max(i, header_.vertex + 1);
+        for (std::size_t j = lost; j < last; ++j) fates_[j].carried = false;
+        warnings_.push_back(fmt::format("elements from {} on are damaged and left out",
+                                        printable(header_.elements[std::min(lost, last - 1)].name, 40)));
+        return;
       }
       fates_[i].end = at;
     }
+    if (numbers_stay) rest_begin_ = at;
   }
 
   void write_header() {
@@ -133,16 +138,19 @@ class PlyKeptWriter final : public KeptPointWriter {
   }
 
   void write_element(std::size_t index) {
-    Fate fate = fates_[index];
+    const Fate fate = fates_[index];
     if (!fate.carried || fate.begin == fate.end) return;
-    if (header_.format != PlyFormat::kAscii) return copy_bytes(input_, fate.begin, fate.end, output_);
-    // The white space before the first value belongs to the line before it.
-    for (std::byte b{}; fate.begin < fate.end; ++fate.begin) {
-      input_.read(fate.begin, {&b, 1});
+    copy_rest(fate.begin, fate.end);
+    if (header_.format == PlyFormat::kAscii) output_.write(std::string_view(header_.line_end));
+  }
+
+  /// In ascii without the white space before the first value: it belongs to the line before.
+  void copy_rest(std::uint64_t begin, std::uint64_t end) {
+    for (std::byte b{}; header_.format == PlyFormat::kAscii && begin < end; ++begin) {
+      input_.read(begin, {&b, 1});
       if (!is_blank(b)) break;
     }
-    copy_bytes(input_, fate.begin, fate.end, output_);
-    output_.write(std::string_view(header_.line_end));
+    copy_bytes(input_, begin, end, output_);
   }
 
   InputFile input_;
@@ -151,6 +159,8 @@ class PlyKeptWriter final : public KeptPointWriter {
   std::vector<ColumnSpec> columns_;
   std::size_t row_bytes_ = 0;
   std::vector<Fate> fates_;
+  std::optional<std::uint64_t> rest_begin_;  ///< What follows the vertices is copied unread from here on.
+  bool salvage_ = false;
   std::optional<std::uint64_t> expected_;  ///< Points that the caller promised to append.
   std::uint64_t count_ = 0;
   std::uint64_t count_at_ = 0;  ///< Offset of the lines that hold the count.

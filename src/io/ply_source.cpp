@@ -246,20 +246,36 @@ class PlyWalkedSource final : public PointSource {
            "copy or export the file again, or read what is there with --salvage");
   }
 
-  /// Ascii vertices that neither keep to lines nor use up the file were read out of step with the header's properties.
+  /// Values behind the last vertex of an ascii file that has nothing else: if vertices did not keep to lines either,
+  /// they were read out of step with the header's properties.
   void check_rest() {
-    const bool last = header_.vertex + 1 == header_.elements.size();
-    if (header_.format != PlyFormat::kAscii || !mid_line_ || !last) return;
+    const bool last = std::all_of(header_.elements.begin() + static_cast<std::ptrdiff_t>(header_.vertex) + 1,
+                                  header_.elements.end(), [](const PlyElement& element) { return element.count == 0; });
+    if (header_.format != PlyFormat::kAscii || !last || info_.points < header_.vertices().count) return;
+    const auto is_value = [](std::byte b) {
+      const char c = static_cast<char>(b);
+      return c != ' ' && (c < '\t' || c > '\r');
+    };
     do {
-      for (const std::byte b : window_.bytes()) {
-        const char c = static_cast<char>(b);
-        if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
-        refuse(*file_, window_.position(),
-               fmt::format("values remain after vertex {} and vertices do not end with their lines", info_.points),
-               "the header declares fewer properties than the lines have: correct it or export the file again");
-      }
-      window_.consume(window_.bytes().size());
+      const auto bytes = window_.bytes();
+      const auto value = std::find_if(bytes.begin(), bytes.end(), is_value);
+      window_.consume(static_cast<std::size_t>(value - bytes.begin()));
+      if (value != bytes.end()) return note_rest(window_.position());
     } while (window_.extend());
+  }
+
+  void note_rest(std::uint64_t byte) {
+    if (mid_line_) {
+      refuse(*file_, byte,
+             fmt::format("values remain after vertex {} and vertices do not end with their lines", info_.points),
+             "the header declares fewer properties than the lines have: correct it or export the file again");
+    }
+    const Problem problem{"trailing-bytes",
+                          fmt::format("values follow the {} vertices that the header counts", info_.points), byte};
+    if (info_.tolerance == Tolerance::kStrict) refuse_problem(*file_, problem);
+    const bool known = std::any_of(info_.problems.begin(), info_.problems.end(),
+                                   [](const Problem& p) { return p.code == "trailing-bytes"; });
+    if (!known) info_.problems.push_back(problem);
   }
 
   std::shared_ptr<const InputFile> file_;

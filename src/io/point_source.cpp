@@ -65,6 +65,11 @@ std::vector<fs::path> scans_in_folder(const fs::path& folder) {
 
 }  // namespace
 
+void refuse_problem(const InputFile& file, const Problem& problem) {
+  refuse(file, problem.byte, fmt::format("{} [{}]", problem.text, problem.code),
+         "this is refused under --strict: repair the file, or read it without");
+}
+
 std::unique_ptr<PointSource> open_point_source(std::shared_ptr<const InputFile> file, Tolerance tolerance) {
   std::array<std::byte, 8> head{};
   const std::size_t got = file->read_some(0, head);
@@ -79,9 +84,7 @@ std::unique_ptr<PointSource> open_point_source(std::shared_ptr<const InputFile> 
     refuse(*file, 0, guess(text), "export the scan as LAS or PLY");
   }
   if (tolerance == Tolerance::kStrict && !source->info().problems.empty()) {
-    const Problem& problem = source->info().problems.front();
-    refuse(*file, problem.byte, fmt::format("{} [{}]", problem.text, problem.code),
-           "this is refused under --strict: repair the file, or read it without");
+    refuse_problem(*file, source->info().problems.front());
   }
   return source;
 }
@@ -143,7 +146,10 @@ bool InputSet::read(PointBatch& batch, const ReadOptions& wanted) {
       batch.first_id += first_id_;
       return true;
     }
-    if (open_) first_id_ += infos_[next_ - 1].points;
+    if (open_) {
+      first_id_ += infos_[next_ - 1].points;
+      infos_[next_ - 1].problems = open_->info().problems;
+    }
     open_.reset();
     if (next_ == infos_.size()) {
       batch.count = 0;

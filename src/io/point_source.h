@@ -90,6 +90,7 @@ struct ReadOptions {
 class PointSource {
  public:
   virtual ~PointSource() = default;
+  /// Problems that only reading can show are added when the last point has been read.
   virtual const SourceInfo& info() const = 0;
   /// Starts over from the first point.
   virtual void rewind() = 0;
@@ -99,6 +100,9 @@ class PointSource {
 };
 
 class InputFile;
+
+/// Throws the InputError that refuses a file for a problem under kStrict.
+[[noreturn]] void refuse_problem(const InputFile& file, const Problem& problem);
 
 /// Opens a file by its content ("LASF", "ply"), not by its name. Throws InputError / IoError.
 std::unique_ptr<PointSource> open_point_source(std::shared_ptr<const InputFile> file,

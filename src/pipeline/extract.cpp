@@ -98,6 +98,27 @@ void warn_of_dropped(const ExtractReport& report, ProgressSink& progress) {
   }
 }
 
+/// Warns of each problem of the inputs once; reading the points may have shown more.
+class ProblemWarnings {
+ public:
+  ProblemWarnings(const io::InputSet& inputs, ProgressSink& progress)
+      : inputs_(inputs), progress_(progress), warned_(inputs.sources().size()) {}
+  void forward() {
+    for (std::size_t i = 0; i < warned_.size(); ++i) {
+      const io::SourceInfo& source = inputs_.sources()[i];
+      for (; warned_[i] < source.problems.size(); ++warned_[i]) {
+        const io::Problem& problem = source.problems[warned_[i]];
+        progress_.warning(problem.code, printable(source.path.string()) + ": " + problem.text);
+      }
+    }
+  }
+
+ private:
+  const io::InputSet& inputs_;
+  ProgressSink& progress_;
+  std::vector<std::size_t> warned_;  ///< Per input, problems forwarded.
+};
+
 }  // namespace
 
 ExtractReport plan_only(const ExtractRequest& request, ProgressSink& progress, const CancelToken& cancel) {
@@ -124,10 +145,8 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
   const std::vector<std::filesystem::path> paths = io::expand_inputs(request.inputs);
   refuse_bad_outputs(request, paths);
   io::InputSet inputs(paths, request.tolerance);
-  for (const io::SourceInfo& source : inputs.sources()) {
-    for (const io::Problem& problem : source.problems)
-      sink.warning(problem.code, printable(source.path.string()) + ": " + problem.text);
-  }
+  ProblemWarnings problems(inputs, sink);
+  problems.forward();
   io::OutputOptions output_options;
   output_options.overwrite = request.overwrite;
   output_options.every_point = request.keep_all;
@@ -140,13 +159,15 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
 
   inputs.exclude(request.exclusion);
   const JobPlan plan = plan_job(inputs, request, sink, cancel);
+  problems.forward();
   describe_plan(plan, inputs, request, report);
   warn_of_dropped(report, sink);
   watch.lap("survey");
 
   const RunFolder folder(request.temp_dir);
   merge::ResultSpool results(folder.path(), inputs.points());
-  {
+  const bool any_test = plan.liu.boundary || plan.liu.fold;  // Without, all points are no contour.
+  if (any_test) {
     // While tiles run side by side, each has one thread; a lone tile uses them all inside.
     const ThreadLimit limit(request.threads - plan.memory.tile_workers + 1);
     tiling::TileStore store(folder.path(), plan.survey.lattice, plan.tiles, "");

@@ -5,9 +5,11 @@
 #include <limits>
 #include <numeric>
 
+#include "../corpus/strip.h"
 #include "io/las_sharing.h"
 #include "io_helpers.h"
 #include "las_builder.h"
+#include "random_las.h"
 
 namespace arris::test {
 namespace {
@@ -95,38 +97,6 @@ void expect_same_vlr(const TestVlr& a, const TestVlr& b) {
   EXPECT_EQ(a.description, b.description);
 }
 
-LasPlan random_plan() {
-  LasPlan plan;
-  plan.minor = *rc::gen::inRange(0, 6);
-  plan.format = *rc::gen::inRange(0, 11);
-  const std::size_t extra = *rc::gen::weightedOneOf<std::size_t>({{3, rc::gen::just<std::size_t>(0)},
-                                                                  {3, rc::gen::inRange<std::size_t>(0, 40)},
-                                                                  {1, rc::gen::inRange<std::size_t>(250, 3000)}});
-  plan.record_bytes = kFormatBytes[static_cast<std::size_t>(plan.format)] + extra;
-  plan.header_padding = *rc::gen::element<std::size_t>(0, 0, 1, 60);
-  plan.points = make_records(*rc::gen::inRange<std::size_t>(0, 30), plan.record_bytes, *rc::gen::inRange(1U, 1000U));
-  const int vlrs = *rc::gen::inRange(0, 4);
-  for (int i = 0; i < vlrs; ++i) {
-    plan.vlrs.push_back(
-        {"user", static_cast<std::uint16_t>(i), std::string(*rc::gen::inRange<std::size_t>(0, 300), 'v')});
-  }
-  if (*rc::gen::arbitrary<bool>()) {  // Descriptions of some, all, or more bytes than there are.
-    std::string payload;
-    const int count = *rc::gen::inRange(0, 5);
-    for (int i = 0; i < count; ++i)
-      payload += extra_entry(*rc::gen::inRange(0, 32), "theirs" + std::to_string(i), *rc::gen::inRange(0, 20));
-    payload += std::string(*rc::gen::element<std::size_t>(0, 0, 0, 7), 'j');
-    plan.vlrs.push_back({"LASF_Spec", 4, payload});
-  }
-  plan.gap = std::string(*rc::gen::element<std::size_t>(0, 0, 2, 500), 'g');
-  if (plan.minor >= 4) {
-    const int evlrs = *rc::gen::inRange(0, 3);
-    for (int i = 0; i < evlrs; ++i) plan.evlrs.push_back({"far", static_cast<std::uint16_t>(i), std::string(70, 'e')});
-    if (*rc::gen::inRange(0, 6) == 0) plan.evlrs.push_back({"LASF_Spec", 4, extra_entry(1, "far")});
-  }
-  return plan;
-}
-
 RC_GTEST_FIXTURE_PROP(LasKept, StrippedOfOurColumns_RecordsEqualTheInputs, ()) {
   const LasPlan plan = random_plan();
   const auto mask = *rc::gen::container<std::vector<bool>>(plan.points.size(), rc::gen::arbitrary<bool>());
@@ -157,6 +127,37 @@ RC_GTEST_FIXTURE_PROP(LasKept, StrippedOfOurColumns_RecordsEqualTheInputs, ()) {
   // The library reads its own output, without complaint about extra bytes.
   const auto source = io::open_point_source(folder_ / "out.las");
   RC_ASSERT(source->info().points == next);
+}
+
+RC_GTEST_FIXTURE_PROP(LasKept, EveryPointKeptOfATrueFile_StrippedEqualsTheInput, ()) {
+  LasPlan plan = random_plan();
+  if (*rc::gen::arbitrary<bool>()) plan.scale = {-0.5, 1e-7, 1.0};
+  const std::string in = random_true_las(plan);
+  keep(in, [](std::uint64_t) { return true; });
+  const std::string out = file_bytes(folder_ / "out.las");
+  const std::string stripped = strip_las(out, {{"EdgeClass", 1}, {"EdgeScore", 4}, {"SegmentId", 4}, {"Votes", 2}});
+  RC_ASSERT(differing_fields(in, stripped) == std::set<std::string>{});
+}
+
+TEST_F(LasKept, WrongHeaderFields_AreCorrectedAlone) {
+  for (const int minor : {1, 2, 3, 4, 5}) {
+    for (int format = 0; format <= 10; ++format) {
+      LasPlan plan;
+      plan.minor = minor;
+      plan.format = format;
+      plan.record_bytes = kFormatBytes[static_cast<std::size_t>(format)];
+      plan.points = make_records(20, plan.record_bytes, static_cast<unsigned>(format + 1));
+      // Its header counts no returns and has no bounds.
+      const std::string in = build_las(plan);
+      keep(in, [](std::uint64_t) { return true; });
+      const std::string stripped = strip_las(file_bytes(folder_ / "out.las"),
+                                             {{"EdgeClass", 1}, {"EdgeScore", 4}, {"SegmentId", 4}, {"Votes", 2}});
+      std::set<std::string> expected{"min-x", "max-x", "min-y", "max-y", "min-z", "max-z"};
+      if (minor >= 4) expected.insert("by-return");
+      if (minor < 4 || format < 6) expected.insert("legacy-by-return");
+      EXPECT_EQ(differing_fields(in, stripped), expected) << minor << " " << format;
+    }
+  }
 }
 
 TEST_F(LasKept, HeaderFields_AreKeptExceptCountsAndBounds) {
