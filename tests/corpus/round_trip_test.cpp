@@ -16,7 +16,7 @@
 namespace arris::test {
 namespace {
 
-constexpr std::uintmax_t kSmallBytes = 2'000'000;
+constexpr std::uintmax_t kSmallBytes = 300'000;
 
 class RoundTrip : public ::testing::TestWithParam<Verdict> {
  protected:
