@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "io/bytes.h"
+#include "io/carried_records.h"
 #include "io/crs_sharing.h"
 #include "io/kept_writers.h"
 #include "io/las_conversion.h"
@@ -41,19 +42,11 @@ WorldExtent measure(const std::vector<SourceInfo>& inputs) {
   return extent;
 }
 
-/// A record of the first LAS input that the output carries: not those that describe what is made anew, or waveforms,
-/// or compression.
-bool is_carried(const LasVlr& record) {
-  if (record.is("laszip encoded", 22204) || is_extra_bytes_record(record)) return false;
-  const bool waveform = record.user_id == "LASF_Spec" &&
-                        ((record.record_id >= 100 && record.record_id < 355) || record.record_id == 65535);
-  return !waveform;
-}
-
 /// Points of PLY inputs, of LAS inputs with different layouts, or of both, as LAS 1.4.
 class ConvertedLasWriter final : public KeptPointWriter {
  public:
-  explicit ConvertedLasWriter(const KeptJob& job) : inputs_(job.inputs), output_(job.path, job.options.overwrite) {
+  explicit ConvertedLasWriter(const KeptJob& job)
+      : inputs_(job.inputs), output_(job.path, job.options.overwrite), carried_(job.inputs) {
     check_crs_sharing(job, warnings_);
     for (const SourceInfo& input : inputs_) readers_.push_back(make_record_reader(InputFile(input.path), input));
     union_ = std::make_unique<ColumnUnion>(readers_, ScalarType::kUint16);
@@ -100,7 +93,10 @@ class ConvertedLasWriter final : public KeptPointWriter {
       warnings_.push_back(
           fmt::format("{} points without finite coordinates within the range of LAS are left out", grouped(left_out_)));
     }
-    write_tail();
+    const std::uint64_t evlr_start = output_.size_bytes();
+    const std::uint32_t evlrs = carried_.write_evlrs(output_);
+    store<std::uint64_t>(&header_[kEvlrStart], evlrs > 0 ? evlr_start : 0);
+    store<std::uint32_t>(&header_[kEvlrCount], evlrs);
     store_totals(header_, totals_);
     output_.patch(0, header_);
     output_.commit();
@@ -125,6 +121,10 @@ class ConvertedLasWriter final : public KeptPointWriter {
   }
 
   void note_losses() {
+    if (inputs_.size() > 1 && carried_.has_las()) {
+      warnings_.push_back(
+          fmt::format("variable-length records and the kind of GPS time are those of {}", carried_.name()));
+    }
     const bool all_las =
         std::all_of(inputs_.begin(), inputs_.end(), [](const auto& input) { return input.format == Format::kLas; });
     if (all_las) {
@@ -173,7 +173,8 @@ class ConvertedLasWriter final : public KeptPointWriter {
     store_text(&header_[kSystemIdentifier], 32, merged ? "MERGE" : "OTHER");
     store_text(&header_[kGeneratingSoftware], 32, "arris");
     output_.write(std::span<const std::byte>(header_));
-    std::uint32_t vlrs = copy_records();
+    std::uint32_t vlrs = carried_.write_vlrs(output_);
+    carried_.set_encoding(is_extended_format(format), header_);
     std::vector<std::byte> entries = conversion_->entries();
     const std::vector<std::byte> ours = describe_columns(columns);
     entries.insert(entries.end(), ours.begin(), ours.end());
@@ -186,60 +187,6 @@ class ConvertedLasWriter final : public KeptPointWriter {
     store<std::uint32_t>(&header_[kOffsetToPoints], static_cast<std::uint32_t>(output_.size_bytes()));
   }
 
-  /// Records of the first LAS input, or the system that a PLY comment names.
-  std::uint32_t copy_records() {
-    const auto first =
-        std::find_if(inputs_.begin(), inputs_.end(), [](const auto& i) { return i.format == Format::kLas; });
-    if (first == inputs_.end()) return write_crs_of_ply();
-    las_input_ = std::make_unique<InputFile>(first->path);
-    las_ = read_las_file(*las_input_, first->tolerance);
-    std::uint32_t count = 0;
-    bool geotiff = false;
-    bool wkt = false;
-    for (const LasVlr& vlr : las_.vlrs) {
-      if (!is_carried(vlr)) continue;
-      copy_bytes(*las_input_, vlr.begin, vlr.end(), output_);
-      geotiff = geotiff || vlr.is("LASF_Projection", 34735);
-      wkt = wkt || vlr.is("LASF_Projection", 2112);
-      ++count;
-    }
-    constexpr std::uint16_t kGpsTimeType = 1;
-    const bool extended = is_extended_format(conversion_->point_format());
-    const unsigned wkt_bit =
-        (las_.header.global_encoding & kEncodingWkt) != 0 || (extended && (wkt || !geotiff)) ? kEncodingWkt : 0;
-    store<std::uint16_t>(&header_[kGlobalEncoding],
-                         static_cast<std::uint16_t>((las_.header.global_encoding & kGpsTimeType) | wkt_bit));
-    if (inputs_.size() > 1) {
-      warnings_.push_back(fmt::format("variable-length records and the kind of GPS time are those of {}",
-                                      printable(first->path.string(), 1000)));
-    }
-    return count;
-  }
-
-  std::uint32_t write_crs_of_ply() {
-    for (const std::string& line : read_ply_header(InputFile(inputs_[0].path)).lines) {
-      if (!line.starts_with(kPlyCrsComment)) continue;
-      const std::string text = line.substr(kPlyCrsComment.size());
-      if (text.find('[') == std::string::npos || text.size() > 60000) continue;  // A name, not a description.
-      output_.write(std::span<const std::byte>(vlr_header("LASF_Projection", 2112, text.size() + 1, "WKT")));
-      output_.write(std::string_view(text.c_str(), text.size() + 1));
-      return 1;
-    }
-    return 0;
-  }
-
-  void write_tail() {
-    std::uint32_t count = 0;
-    const std::uint64_t begin = output_.size_bytes();
-    for (const LasVlr& record : las_.evlrs) {
-      if (!is_carried(record)) continue;
-      copy_bytes(*las_input_, record.begin, record.end(), output_);
-      ++count;
-    }
-    store<std::uint64_t>(&header_[kEvlrStart], count > 0 ? begin : 0);
-    store<std::uint32_t>(&header_[kEvlrCount], count);
-  }
-
   std::vector<SourceInfo> inputs_;
   OutputFile output_;
   std::vector<std::unique_ptr<RecordReader>> readers_;
@@ -248,8 +195,7 @@ class ConvertedLasWriter final : public KeptPointWriter {
   LasGrid grid_;
   bool rounded_ = false;
   std::size_t row_bytes_ = 0;
-  std::unique_ptr<InputFile> las_input_;  ///< The first LAS input and its structure.
-  LasFile las_;
+  CarriedRecords carried_;
   std::vector<double> from_file_;
   std::vector<double> values_;
   std::vector<std::byte> record_;
