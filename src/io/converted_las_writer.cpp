@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "io/bytes.h"
 #include "io/carried_records.h"
+#include "io/column_ranges.h"
 #include "io/crs_sharing.h"
 #include "io/kept_writers.h"
 #include "io/las_conversion.h"
@@ -53,6 +54,7 @@ class ConvertedLasWriter final : public KeptPointWriter {
     conversion_ = std::make_unique<LasConversion>(job, *union_);
     const std::vector<ColumnSpec> columns = rename_taken_columns(job.columns, conversion_->names(), warnings_);
     row_bytes_ = row_size_bytes(columns);
+    ranges_ = ColumnRanges(columns);
     grid_ = merge_las_grids(inputs_, job.options.extent ? *job.options.extent : measure(inputs_));
     if (conversion_->record_bytes() + row_bytes_ > kLasMaxRecordBytes) {
       throw ConfigError(fmt::format("{}: records would exceed {} bytes; write PLY", printable(job.path.string(), 1000),
@@ -80,6 +82,7 @@ class ConvertedLasWriter final : public KeptPointWriter {
         totals_.add(record_.data(), is_extended_format(conversion_->point_format()) ? 15 : 7);
         output_.write(std::span<const std::byte>(record_));
         output_.write(std::span(row, row_bytes_));
+        ranges_.add(row);
       } else {
         ++left_out_;
       }
@@ -97,6 +100,7 @@ class ConvertedLasWriter final : public KeptPointWriter {
     const std::uint32_t evlrs = carried_.write_evlrs(output_);
     store<std::uint64_t>(&header_[kEvlrStart], evlrs > 0 ? evlr_start : 0);
     store<std::uint32_t>(&header_[kEvlrCount], evlrs);
+    ranges_.patch_entries(output_, entries_at_);
     store_totals(header_, totals_);
     output_.patch(0, header_);
     output_.commit();
@@ -181,6 +185,7 @@ class ConvertedLasWriter final : public KeptPointWriter {
     if (!entries.empty()) {
       output_.write(std::span<const std::byte>(extra_bytes_vlr_header(entries.size())));
       output_.write(std::span<const std::byte>(entries));
+      entries_at_ = output_.size_bytes() - ours.size();
       ++vlrs;
     }
     store<std::uint32_t>(&header_[kVlrCount], vlrs);
@@ -201,6 +206,8 @@ class ConvertedLasWriter final : public KeptPointWriter {
   std::vector<std::byte> record_;
   std::vector<std::byte> header_;
   LasTotals totals_;
+  ColumnRanges ranges_{{}};
+  std::uint64_t entries_at_ = 0;  ///< Descriptions of our columns in the output.
   std::uint64_t left_out_ = 0;
   std::vector<std::string> warnings_;
 };

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "io/bytes.h"
+#include "io/column_ranges.h"
 #include "io/crs_sharing.h"
 #include "io/kept_writers.h"
 #include "io/las_extra_bytes.h"
@@ -39,6 +40,8 @@ class LasKeptWriter final : public KeptPointWriter {
     for (const ExtraAttribute& attribute : read_extra_bytes(input_, las_).attributes) taken.push_back(attribute.name);
     const std::vector<ColumnSpec> columns = rename_taken_columns(job.columns, taken, warnings_);
     row_bytes_ = row_size_bytes(columns);
+    ranges_ = ColumnRanges(columns);
+    entries_bytes_ = columns.size() * kExtraBytesEntryBytes;
     return_mask_ = is_extended_format(las_.header.point_format) ? 15 : 7;
     plan_ = plan_extra_bytes(input_, las_, columns);
     warnings_.insert(warnings_.end(), plan_.warnings.begin(), plan_.warnings.end());
@@ -60,12 +63,14 @@ class LasKeptWriter final : public KeptPointWriter {
       totals_.add(record.data(), return_mask_);
       output_.write(record);
       output_.write(std::span(row, row_bytes_));
+      ranges_.add(row);
       row += row_bytes_;
     }
   }
 
   void commit() override {
     write_tail();
+    ranges_.patch_entries(output_, entries_at_);
     correct_totals(header_, totals_);
     output_.patch(0, header_);
     output_.commit();
@@ -81,6 +86,7 @@ class LasKeptWriter final : public KeptPointWriter {
     if (!plan_.new_payload.empty()) {
       output_.write(std::span<const std::byte>(extra_bytes_vlr_header(plan_.new_payload.size())));
       output_.write(std::span<const std::byte>(plan_.new_payload));
+      entries_at_ = output_.size_bytes() - entries_bytes_;
     }
     gap_shift_ = output_.size_bytes() - las_.vlrs_end;
     copy_bytes(input_, las_.vlrs_end, las_.header.offset_to_points, output_);
@@ -105,6 +111,7 @@ class LasKeptWriter final : public KeptPointWriter {
     }
     if (plan_.supersede_vlrs && is_extra_bytes_record(vlr)) store<std::uint16_t>(&bytes[18], kSupersededRecord);
     output_.write(std::span<const std::byte>(bytes));
+    if (plan_.append_to == static_cast<int>(index)) entries_at_ = output_.size_bytes() - entries_bytes_;
   }
 
   /// Copies what follows the points and points the header to its new place.
@@ -166,6 +173,9 @@ class LasKeptWriter final : public KeptPointWriter {
   ExtraBytesPlan plan_;
   std::vector<std::byte> header_;
   LasTotals totals_;
+  ColumnRanges ranges_{{}};
+  std::size_t entries_bytes_ = 0;  ///< Of the descriptions of our columns ...
+  std::uint64_t entries_at_ = 0;   ///< ... which lie here in the output.
   std::size_t row_bytes_ = 0;
   unsigned return_mask_ = 7;
   std::uint64_t gap_shift_ = 0;  ///< How far the bytes between VLRs and points moved ...

@@ -227,6 +227,32 @@ TEST_F(LasTraps, L23_L30_NansAndNegativeZeros_KeepTheirBits) {
   EXPECT_EQ(kept(build_las(plan)).records, plan.points);
 }
 
+TEST_F(LasTraps, L25_OurDescriptions_StateTheirRanges) {
+  for (const bool theirs : {false, true}) {
+    LasPlan plan = plan_of(2, 0, 5, 2);
+    if (theirs) plan.vlrs = {{"LASF_Spec", 4, extra_entry(3, "theirs")}};
+    const auto in = write(build_las(plan));
+    std::filesystem::remove(folder_ / "out.las");
+    const auto row = [](std::uint64_t id) {
+      std::string bytes(5, '\0');
+      bytes[0] = static_cast<char>(id == 4 ? 200 : id + 3);
+      put<float>(bytes, 1, id == 2 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(id) - 0.5F);
+      return bytes;
+    };
+    write_kept(
+        folder_ / "out.las", {in}, {{"Class", ColumnType::kUint8, ""}, {"Score", ColumnType::kFloat32, ""}},
+        [](std::uint64_t id) { return id != 0; }, row);
+    const std::string payload = read_parts(file_bytes(folder_ / "out.las")).vlrs.at(0).payload;
+    const std::string ours = payload.substr(payload.size() - 384);
+    EXPECT_EQ(ours[3], 6) << "least and greatest value are there";
+    EXPECT_EQ(get<std::uint64_t>(ours, 64), 4U);
+    EXPECT_EQ(get<std::uint64_t>(ours, 88), 200U);
+    EXPECT_EQ(get<double>(ours, 192 + 64), 0.5);
+    EXPECT_EQ(get<double>(ours, 192 + 88), 3.5);
+    EXPECT_EQ(payload.substr(0, payload.size() - 384), theirs ? plan.vlrs[0].payload : payload.substr(0, 192));
+  }
+}
+
 TEST_F(LasTraps, L26_HeaderTexts_AreRawBytes) {
   std::string bytes = build_las(plan_of(2, 0, 2));
   bytes.replace(26, 64, std::string(64, '\xff'));
