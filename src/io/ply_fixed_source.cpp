@@ -15,28 +15,7 @@ void decode_axis(const std::byte* at, std::size_t stride, std::size_t count, dou
 
 template <std::endian kOrder>
 void decode_axis_of_type(ScalarType type, const std::byte* at, std::size_t stride, std::size_t count, double* out) {
-  switch (type) {
-    case ScalarType::kInt8:
-      return decode_axis<std::int8_t, kOrder>(at, stride, count, out);
-    case ScalarType::kUint8:
-      return decode_axis<std::uint8_t, kOrder>(at, stride, count, out);
-    case ScalarType::kInt16:
-      return decode_axis<std::int16_t, kOrder>(at, stride, count, out);
-    case ScalarType::kUint16:
-      return decode_axis<std::uint16_t, kOrder>(at, stride, count, out);
-    case ScalarType::kInt32:
-      return decode_axis<std::int32_t, kOrder>(at, stride, count, out);
-    case ScalarType::kUint32:
-      return decode_axis<std::uint32_t, kOrder>(at, stride, count, out);
-    case ScalarType::kFloat32:
-      return decode_axis<float, kOrder>(at, stride, count, out);
-    case ScalarType::kFloat64:
-      return decode_axis<double, kOrder>(at, stride, count, out);
-    case ScalarType::kInt64:
-      return decode_axis<std::int64_t, kOrder>(at, stride, count, out);
-    case ScalarType::kUint64:
-      return decode_axis<std::uint64_t, kOrder>(at, stride, count, out);
-  }
+  with_scalar_type(type, [&](auto zero) { decode_axis<decltype(zero), kOrder>(at, stride, count, out); });
 }
 
 /// Binary vertices without lists: records of fixed size, found by arithmetic.

@@ -42,29 +42,7 @@ bool parse_number(std::string_view token, double& value) {
 
 template <std::endian kOrder>
 double load_as_double(ScalarType type, const std::byte* at) {
-  switch (type) {
-    case ScalarType::kInt8:
-      return load<std::int8_t, kOrder>(at);
-    case ScalarType::kUint8:
-      return load<std::uint8_t, kOrder>(at);
-    case ScalarType::kInt16:
-      return load<std::int16_t, kOrder>(at);
-    case ScalarType::kUint16:
-      return load<std::uint16_t, kOrder>(at);
-    case ScalarType::kInt32:
-      return load<std::int32_t, kOrder>(at);
-    case ScalarType::kUint32:
-      return load<std::uint32_t, kOrder>(at);
-    case ScalarType::kFloat32:
-      return static_cast<double>(load<float, kOrder>(at));
-    case ScalarType::kFloat64:
-      return load<double, kOrder>(at);
-    case ScalarType::kInt64:
-      return static_cast<double>(load<std::int64_t, kOrder>(at));
-    case ScalarType::kUint64:
-      break;
-  }
-  return static_cast<double>(load<std::uint64_t, kOrder>(at));
+  return with_scalar_type(type, [&](auto zero) { return static_cast<double>(load<decltype(zero), kOrder>(at)); });
 }
 
 }  // namespace

@@ -14,34 +14,6 @@ constexpr std::array<std::size_t, 10> kTypeBytes{1, 1, 2, 2, 4, 4, 4, 8, 8, 8};
 constexpr std::array<const char*, 10> kNames{"char", "uchar", "short",  "ushort", "int",
                                              "uint", "float", "double", "int64",  "uint64"};
 
-/// Calls use with a value of the C++ type.
-template <typename Use>
-auto with_type(ScalarType type, Use&& use) {
-  switch (type) {
-    case ScalarType::kInt8:
-      return use(std::int8_t{});
-    case ScalarType::kUint8:
-      return use(std::uint8_t{});
-    case ScalarType::kInt16:
-      return use(std::int16_t{});
-    case ScalarType::kUint16:
-      return use(std::uint16_t{});
-    case ScalarType::kInt32:
-      return use(std::int32_t{});
-    case ScalarType::kUint32:
-      return use(std::uint32_t{});
-    case ScalarType::kFloat32:
-      return use(float{});
-    case ScalarType::kInt64:
-      return use(std::int64_t{});
-    case ScalarType::kUint64:
-      return use(std::uint64_t{});
-    case ScalarType::kFloat64:
-      break;
-  }
-  return use(double{});
-}
-
 template <typename T>
 T nearest(double value) {
   if constexpr (std::is_floating_point_v<T>) return static_cast<T>(value);
@@ -68,11 +40,11 @@ const char* type_name(ScalarType type) {
 }
 
 double load_scalar(ScalarType type, const std::byte* at) {
-  return with_type(type, [&](auto zero) { return static_cast<double>(load<decltype(zero)>(at)); });
+  return with_scalar_type(type, [&](auto zero) { return static_cast<double>(load<decltype(zero)>(at)); });
 }
 
 void store_scalar(ScalarType type, double value, std::byte* at) {
-  with_type(type, [&](auto zero) { store<decltype(zero)>(at, nearest<decltype(zero)>(value)); });
+  with_scalar_type(type, [&](auto zero) { store<decltype(zero)>(at, nearest<decltype(zero)>(value)); });
 }
 
 ScalarType common_type(ScalarType a, ScalarType b) {

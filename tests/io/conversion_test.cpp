@@ -10,12 +10,6 @@
 namespace arris::test {
 namespace {
 
-const std::vector<ColumnSpec> kColumns{{"Id", ColumnType::kUint32, "number"}};
-std::string row_of(std::uint64_t id) {
-  std::string bytes(4, '\0');
-  put<std::uint32_t>(bytes, 0, static_cast<std::uint32_t>(id + 1000));
-  return bytes;
-}
 bool all(std::uint64_t) {
   return true;
 }
@@ -63,7 +57,7 @@ std::vector<std::string> make_finite_records(std::size_t count, std::size_t byte
   return records;
 }
 
-LasPlan plan_of(int format, std::size_t points, std::size_t extra = 0, unsigned seed = 1) {
+LasPlan finite_plan(int format, std::size_t points, std::size_t extra = 0, unsigned seed = 1) {
   LasPlan plan;
   plan.minor = 4;
   plan.format = format;
@@ -81,7 +75,7 @@ class Conversion : public ::testing::Test {
   /// Converts everything and keeps the warnings.
   std::filesystem::path convert(const char* name, const std::vector<std::filesystem::path>& inputs) {
     std::filesystem::remove(folder_ / name);
-    warnings_ = write_kept(folder_ / name, inputs, kColumns, all, row_of);
+    warnings_ = write_kept(folder_ / name, inputs, kIdColumn, all, id_row);
     return folder_ / name;
   }
   TempFolder folder_;
@@ -91,7 +85,7 @@ class Conversion : public ::testing::Test {
 TEST_F(Conversion, LasToPly_CarriesEveryFieldOfEveryFormat) {
   for (int format = 0; format <= 10; ++format) {
     SCOPED_TRACE(format);
-    LasPlan plan = plan_of(format, 9, 2 + 12 + 8 + 3, static_cast<unsigned>(format));
+    LasPlan plan = finite_plan(format, 9, 2 + 12 + 8 + 3, static_cast<unsigned>(format));
     const std::size_t extra = plan.record_bytes - 25;
     for (std::size_t i = 0; i < 9; ++i) {
       put<std::uint16_t>(plan.points[i], extra, static_cast<std::uint16_t>(7000 + i));
@@ -127,7 +121,7 @@ TEST_F(Conversion, LasToPly_CarriesEveryFieldOfEveryFormat) {
 }
 
 TEST_F(Conversion, ScaledExtraBytes_BecomeWhatTheyMean) {
-  LasPlan plan = plan_of(0, 2, 2);
+  LasPlan plan = finite_plan(0, 2, 2);
   put<std::int16_t>(plan.points[0], 20, -150);
   put<std::int16_t>(plan.points[1], 20, 300);
   std::string entry = extra_entry(4, "Height", 8 | 16);
@@ -143,7 +137,7 @@ TEST_F(Conversion, ScaledExtraBytes_BecomeWhatTheyMean) {
 TEST_F(Conversion, LasToPlyToLas_GivesTheSameFieldsBack) {
   for (const int format : {0, 1, 2, 3, 6, 7, 8}) {
     SCOPED_TRACE(format);
-    LasPlan plan = plan_of(format, 20, 4, static_cast<unsigned>(40 + format));
+    LasPlan plan = finite_plan(format, 20, 4, static_cast<unsigned>(40 + format));
     plan.scale = {0.001, 0.001, 0.001};
     plan.offset = {0.0, 0.0, 0.0};
     for (std::size_t i = 0; i < 20; ++i) {
@@ -226,7 +220,7 @@ TEST_F(Conversion, PlyToLas_CarriesWhatItRecognisesAndTheRestByName) {
           EXPECT_EQ(get<std::uint16_t>(r, 32), 257 * i);
         }
         EXPECT_EQ(get<float>(r, colour ? 36 : 30), 0.5F + static_cast<float>(i));
-        EXPECT_EQ(r.substr(colour ? 40 : 34), row_of(i));
+        EXPECT_EQ(r.substr(colour ? 40 : 34), id_row(i));
       }
     }
   }
@@ -240,7 +234,7 @@ TEST_F(Conversion, PlyToLas_LeavesOutPointsWithoutPlace) {
   const LasParts parts = read_parts(file_bytes(convert("out.las", {in})));
   EXPECT_HAS(warnings_.back(), "1 points without finite coordinates");
   ASSERT_EQ(parts.records.size(), 2U);
-  EXPECT_EQ(parts.records[1].substr(30), row_of(2));
+  EXPECT_EQ(parts.records[1].substr(30), id_row(2));
 }
 
 TEST_F(Conversion, ValuesBeyondAField_AreCutAndCounted) {

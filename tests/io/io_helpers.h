@@ -81,6 +81,13 @@ std::string message_of(const std::function<void()>& action) {
 
 #define EXPECT_HAS(text, part) EXPECT_NE(std::string(text).find(part), std::string::npos) << (text)
 
+/// A column of ours and its value for a point.
+inline const std::vector<ColumnSpec> kIdColumn{{"Id", ColumnType::kUint32, "number"}};
+inline std::string id_row(std::uint64_t id) {
+  const auto value = static_cast<std::uint32_t>(id + 1000);
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
 /// Writes the chosen points (by global id) of inputs with one row of `columns` each, and returns the warnings.
 inline std::vector<std::string> write_kept(const std::filesystem::path& output,
                                            const std::vector<std::filesystem::path>& inputs,

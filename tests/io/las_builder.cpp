@@ -37,6 +37,15 @@ TestVlr read_record(const std::string& bytes, std::size_t& at, bool extended) {
 
 }  // namespace
 
+LasPlan plan_of(int minor, int format, std::size_t points, std::size_t extra) {
+  LasPlan plan;
+  plan.minor = minor;
+  plan.format = format;
+  plan.record_bytes = kFormatBytes[static_cast<std::size_t>(format)] + extra;
+  plan.points = make_records(points, plan.record_bytes, static_cast<unsigned>(minor * 16 + format));
+  return plan;
+}
+
 std::string build_las(const LasPlan& plan) {
   std::string header(kHeaderBytes[static_cast<std::size_t>(plan.minor)] + plan.header_padding, '\x5a');
   std::fill(header.begin(), header.begin() + static_cast<std::ptrdiff_t>(header.size() - plan.header_padding), '\0');

@@ -45,6 +45,8 @@ struct LasPlan {
   std::array<double, 3> offset{500000.0, 5000000.0, -10.0};
 };
 
+/// `points` records of make_records(), each `extra` bytes longer than the format.
+LasPlan plan_of(int minor, int format, std::size_t points, std::size_t extra = 0);
 std::string build_las(const LasPlan& plan);
 /// `count` records of deterministic, different bytes.
 std::vector<std::string> make_records(std::size_t count, std::size_t record_bytes, unsigned seed = 1);

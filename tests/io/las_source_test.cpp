@@ -10,15 +10,6 @@
 namespace arris::test {
 namespace {
 
-LasPlan plan_of(int minor, int format, std::size_t points, std::size_t extra = 0) {
-  LasPlan plan;
-  plan.minor = minor;
-  plan.format = format;
-  plan.record_bytes = kFormatBytes[static_cast<std::size_t>(format)] + extra;
-  plan.points = make_records(points, plan.record_bytes, static_cast<unsigned>(minor * 16 + format));
-  return plan;
-}
-
 void expect_points(const AllPoints& all, const LasPlan& plan) {
   ASSERT_EQ(all.stored.size(), plan.points.size());
   for (std::size_t i = 0; i < plan.points.size(); ++i) {

@@ -9,15 +9,6 @@
 namespace arris::test {
 namespace {
 
-LasPlan plan_of(int minor, int format, std::size_t points, std::size_t extra = 0) {
-  LasPlan plan;
-  plan.minor = minor;
-  plan.format = format;
-  plan.record_bytes = kFormatBytes[static_cast<std::size_t>(format)] + extra;
-  plan.points = make_records(points, plan.record_bytes);
-  return plan;
-}
-
 class LasTraps : public ::testing::Test {
  protected:
   std::filesystem::path write(const std::string& bytes, const char* name = "a.las") {

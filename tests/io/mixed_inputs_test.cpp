@@ -8,13 +8,6 @@
 namespace arris::test {
 namespace {
 
-const std::vector<ColumnSpec> kColumns{{"Id", ColumnType::kUint32, "number"}};
-std::string row_of(std::uint64_t id) {
-  std::string bytes(4, '\0');
-  put<std::uint32_t>(bytes, 0, static_cast<std::uint32_t>(id + 1000));
-  return bytes;
-}
-
 /// Inputs that differ in something: one output in the layout that holds them all.
 class MixedInputs : public ::testing::Test {
  protected:
@@ -40,7 +33,7 @@ class MixedInputs : public ::testing::Test {
     io::OutputOptions options;
     options.mixed_crs = mixed_crs;
     std::filesystem::remove(folder_ / name);
-    const auto writer = io::create_kept_point_writer(folder_ / name, set, kColumns, options);
+    const auto writer = io::create_kept_point_writer(folder_ / name, set, kIdColumn, options);
     io::PointBatch batch;
     io::ReadOptions reading;
     reading.records = true;
@@ -49,7 +42,7 @@ class MixedInputs : public ::testing::Test {
       std::string rows;
       for (std::size_t i = 0; i < batch.count; ++i) {
         kept.push_back(static_cast<std::uint32_t>(i));
-        rows += row_of(batch.first_id + i);
+        rows += id_row(batch.first_id + i);
       }
       writer->append(set.source_index(), batch, kept, std::as_bytes(std::span(rows)));
     }
@@ -82,7 +75,7 @@ TEST_F(MixedInputs, PointFormats_GiveTheOneThatHoldsAll) {
   EXPECT_EQ(legacy.records[2].substr(28, 6), std::string(6, '\0'));
   EXPECT_EQ(legacy.records[6].substr(0, 20), b.points[2].substr(0, 20));
   EXPECT_EQ(legacy.records[6].substr(28, 6), b.points[2].substr(20, 6));
-  EXPECT_EQ(legacy.records[6].substr(34), row_of(6));
+  EXPECT_EQ(legacy.records[6].substr(34), id_row(6));
   const LasPlan c = plan(8);
   add("c.las", build_las(c));
   const LasParts wide = read_parts(merged("wide.las"));
