@@ -37,6 +37,30 @@ TEST(ExactTiling, SimulatedTown_SameBytes) {
   expect_same_bytes(folder / "scan.las", small_matrix(), 10);
 }
 
+// A LAS file of another scale, a PLY and a LAS of the usual kind, with every third point excluded by its class.
+TEST(ExactTiling, MixedLayoutsAndExclusions_SameBytes) {
+  const TempFolder folder;
+  const TempFolder scans;
+  const auto synth = [&](const char* name, const char* seed, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{
+        "synth",      "block",   "--spacing",          "0.4",        "--noise", "0.05", "--seed", seed, "-o",
+        scans / name, "--truth", folder / "truth.csv", "--overwrite"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ASSERT_EQ(run_arris(arguments).exit_code, 0);
+  };
+  synth("a.las", "1", {});
+  synth("b.ply", "2", {});
+  std::vector<std::array<std::int32_t, 3>> points;
+  for (std::int32_t x = -200; x < 200; ++x) {
+    for (std::int32_t y = -200; y < 200; ++y) points.push_back({x * 7, y * 7, 900});
+  }
+  write_las(scans / "c.las", points, 0.01);
+  LasView view = view_las(scans / "c.las");
+  for (std::uint64_t i = 0; i < view.points; i += 3) view.bytes[view.offset_to_points + i * view.record_bytes + 15] = 7;
+  write_bytes(scans / "c.las", view.bytes);
+  expect_same_bytes(scans.path(), small_matrix(), 10, {"--exclude-class", "7"});
+}
+
 TEST(ExactTiling, AirborneScan_SameBytes) {
   ARRIS_SHARED_DATA_OR_SKIP(scan, "hobuinc+laz-perf/cpp/test/raw-sets/autzen_trim.las");
   expect_same_bytes(scan, {{"20000", 2, "256MiB", true}, {"none", 1, "", false}, {"100000", 4, "1GiB", true}}, 2);

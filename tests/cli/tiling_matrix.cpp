@@ -38,9 +38,11 @@ std::vector<TilingCase> small_matrix() {
           {"100000", 1, "256MiB", true}, {"100000", 2, "", false},     {"1000000", 4, "1GiB", true}};
 }
 
-void expect_same_bytes(const std::filesystem::path& scan, const std::vector<TilingCase>& cases, int caps_divisor) {
+void expect_same_bytes(const std::filesystem::path& scan, const std::vector<TilingCase>& cases, int caps_divisor,
+                       const std::vector<std::string>& options) {
   const TempFolder folder;
-  const std::vector<std::filesystem::path> parts = split_las(scan, 5, folder.path());
+  std::vector<std::filesystem::path> parts{scan};
+  if (!std::filesystem::is_directory(scan)) parts = split_las(scan, 5, folder.path());
   std::string expected;
   for (const TilingCase& c : cases) {
     const std::string out = folder / "out.las";
@@ -55,6 +57,7 @@ void expect_same_bytes(const std::filesystem::path& scan, const std::vector<Tili
       arguments.push_back(scan);
     }
     arguments.insert(arguments.end(), {"-o", out, "--overwrite", "-q"});
+    arguments.insert(arguments.end(), options.begin(), options.end());
     const ProcessResult run = run_arris(arguments);
     const std::string what = "cap " + cap + ", " + std::to_string(c.threads) + " threads, memory '" + c.memory + "', " +
                              (c.split ? "5 files" : "1 file");

@@ -22,7 +22,10 @@ std::vector<TilingCase> small_matrix();
 
 /// Runs extract for every case and expects one and the same output, with contour points in it. `caps_divisor` makes
 /// tiles smaller for small clouds.
-void expect_same_bytes(const std::filesystem::path& scan, const std::vector<TilingCase>& cases, int caps_divisor = 1);
+/// @param scan  a LAS file, or a folder of scans (which is not split).
+/// @param options  more options of extract.
+void expect_same_bytes(const std::filesystem::path& scan, const std::vector<TilingCase>& cases, int caps_divisor = 1,
+                       const std::vector<std::string>& options = {});
 
 /// A closed surface of boxes whose faces, edges and corners lie on multiples of 64 lattice steps, where tiles are cut.
 void write_points_on_tile_faces(const std::filesystem::path& path);
