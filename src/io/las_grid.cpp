@@ -73,6 +73,16 @@ LasGrid merge_las_grids(const std::vector<SourceInfo>& inputs, const WorldExtent
     grid.offset[axis] = std::round(min / 2.0 + max / 2.0);
     if (!grid.stored(axis, min) || !grid.stored(axis, max)) return choose_las_grid(extent);
   }
+  const bool floats =
+      std::any_of(inputs.begin(), inputs.end(), [](const auto& input) { return !input.scaled_integers; });
+  if (!floats) return grid;
+  // Steps fit for the integers of one input may be too coarse for the floating point of another.
+  const LasGrid free = choose_las_grid(extent);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (free.scale[axis] >= std::abs(grid.scale[axis])) continue;
+    grid.scale[axis] = free.scale[axis];
+    grid.offset[axis] = free.offset[axis];
+  }
   return grid;
 }
 

@@ -31,7 +31,8 @@ LasGrid choose_las_grid(const WorldExtent& extent);
 
 /// A grid for inputs of different scales and offsets: per axis the finest scale, and the offset of the first LAS input.
 /// An offset moves to the middle where int32 would not reach the extent from it; where no offset does, or no input is
-/// LAS, the grid is choose_las_grid()'s.
+/// LAS, the grid is choose_las_grid()'s. With PLY inputs among them, an axis on which choose_las_grid() has finer steps
+/// takes these.
 LasGrid merge_las_grids(const std::vector<SourceInfo>& inputs, const WorldExtent& extent);
 
 }  // namespace arris::io

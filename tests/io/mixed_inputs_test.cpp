@@ -192,14 +192,18 @@ TEST_F(MixedInputs, LasAndPly_ShareOneOutput) {
                      {"green", "uchar"},
                      {"blue", "uchar"},
                      {"planarity", "float"}},
-                    {{{500000.0}, {5000000.0}, {1.0}, {77.0}, {255.0}, {0.0}, {1.0}, {0.25}}}};
+                    {{{500000.0628}, {5000000.0}, {1.0}, {77.0}, {255.0}, {0.0}, {1.0}, {0.25}}}};
   add("b.ply", build_ply({"binary_big_endian", "\n", {}, {vertices}}));
   const std::string bytes = merged("out.las");
   const LasParts parts = read_parts(bytes);
   EXPECT_EQ(parts.format, 7);
   ASSERT_EQ(parts.records.size(), 5U);
-  EXPECT_EQ(parts.records[1].substr(0, 36), a.points[1]);
-  EXPECT_EQ(world(bytes, parts.records[4], 0), 500000.0);
+  EXPECT_EQ(parts.records[1].substr(12, 24), a.points[1].substr(12));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double expected = get<std::int32_t>(a.points[1], 4 * axis) * a.scale[axis] + a.offset[axis];
+    EXPECT_NEAR(world(bytes, parts.records[1], axis), expected, 1e-9 * std::abs(expected));
+  }
+  EXPECT_NEAR(world(bytes, parts.records[4], 0), 500000.0628, 0.00005) << "steps of the LAS input are too coarse";
   EXPECT_EQ(get<std::uint16_t>(parts.records[4], 12), 77);
   EXPECT_EQ(get<std::uint16_t>(parts.records[4], 30), 65535);
   EXPECT_EQ(get<float>(parts.records[4], 36), 0.25F);
