@@ -110,6 +110,17 @@ ExtraBytes read_extra_bytes(const InputFile& file, const LasFile& las) {
   for (const auto* records : {&las.vlrs, &las.evlrs}) {
     for (const LasVlr& record : *records) {
       if (!is_extra_bytes_record(record)) continue;
+      // No record has room for more attributes than bytes; a damaged file must not make us keep more.
+      if (extra.entries.size() > kLasMaxRecordBytes * kExtraBytesEntryBytes) {
+        extra.valid = false;
+        extra.problems.push_back({"extra-bytes-many",
+                                  fmt::format("more than {} extra bytes are described, which no record has; all are "
+                                              "taken as undocumented",
+                                              kLasMaxRecordBytes),
+                                  record.begin});
+        extra.entries.clear();
+        return extra;
+      }
       std::vector<std::byte> payload = read_payload(file, record, kMaxPayload);
       if (record.payload_bytes % kExtraBytesEntryBytes != 0) {
         extra.whole_entries = false;

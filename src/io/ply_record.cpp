@@ -19,30 +19,40 @@ bool is_space(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/// Numbers begin with a digit, sign or point, or are spelled nan, inf. Anything else means that the values have gone
-/// out of step.
-bool may_be_number(std::string_view token) {
-  const char c = token[0];
-  return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == 'n' || c == 'N' || c == 'i' || c == 'I';
+/// Older Windows libraries print 1.#INF, -1.#IND, 1.#QNAN00.
+bool parse_windows_special(std::string_view token, double& value) {
+  const bool negative = token.starts_with('-');
+  if (negative) token.remove_prefix(1);
+  if (!token.starts_with("1.#")) return false;
+  token.remove_prefix(3);
+  const bool infinite = token.starts_with("INF");
+  if (!infinite && !token.starts_with("IND") && !token.starts_with("QNAN") && !token.starts_with("SNAN")) return false;
+  value = infinite ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+  if (infinite && negative) value = -value;
+  return true;
 }
 
 bool parse_number(std::string_view token, double& value) {
-  if (token.starts_with('+')) token.remove_prefix(1);
+  if (token.starts_with('+')) {
+    token.remove_prefix(1);
+    if (token.starts_with('-')) return false;
+  }
   const char* end = token.data() + token.size();
   const auto result = fast_float::from_chars(token.data(), end, value);
-  if (result.ptr == end && result.ec != std::errc::invalid_argument)
-    return true;                               // Too large or small: infinity or zero.
-  const std::size_t mark = token.find("1.#");  // Older Windows libraries print 1.#INF, -1.#IND, 1.#QNAN.
-  if (mark > 1 || (mark == 1 && token[0] != '-')) return false;
-  const bool infinite = token.substr(mark + 3).starts_with("INF");
-  value = infinite ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
-  if (infinite && mark == 1) value = -value;
-  return true;
+  // Out of range is none of ours: too large or small a number is infinity or zero.
+  if (result.ptr == end && result.ec != std::errc::invalid_argument) return true;
+  return parse_windows_special(token, value);
 }
 
 template <std::endian kOrder>
 double load_as_double(ScalarType type, const std::byte* at) {
   return with_scalar_type(type, [&](auto zero) { return static_cast<double>(load<decltype(zero), kOrder>(at)); });
+}
+
+std::string not_a_number(std::string_view token, const PlyProperty& property) {
+  const char* hint = token.find(',') != std::string_view::npos ? "; decimals must be written with a point" : "";
+  return fmt::format("\"{}\" is not a number ({} {}){}", printable(token, 40), property.is_list ? "list" : "property",
+                     printable(property.name, 40), hint);
 }
 
 }  // namespace
@@ -93,19 +103,11 @@ PlyRecordWalker::Result PlyRecordWalker::walk_ascii(std::string_view text, bool 
       follows_line_end_ = text.substr(0, begin_).find_first_of("\r\n") != std::string_view::npos;
       first = false;
     }
-    if (step.slot >= 0) {
-      if (!parse_number(token, values_[static_cast<std::size_t>(step.slot)])) {
-        const char* hint = token.find(',') != std::string_view::npos ? "; decimals must be written with a point" : "";
-        return bad(fmt::format("\"{}\" is not a number (property {}){}", printable(token, 40),
-                               printable(step.property.name, 40), hint));
-      }
-      continue;
-    }
+    // All are parsed, wanted or not: what is no number shows that the values have gone out of step.
+    double value = 0.0;
     if (!step.property.is_list) {
-      if (!may_be_number(token)) {
-        return bad(fmt::format("\"{}\" is not a number (property {})", printable(token, 40),
-                               printable(step.property.name, 40)));
-      }
+      if (!parse_number(token, value)) return bad(not_a_number(token, step.property));
+      if (step.slot >= 0) values_[static_cast<std::size_t>(step.slot)] = value;
       continue;
     }
     std::uint64_t items = 0;
@@ -116,10 +118,7 @@ PlyRecordWalker::Result PlyRecordWalker::walk_ascii(std::string_view text, bool 
     }
     for (; items > 0; --items) {
       if (!next_token(text, file_end, token)) return Result::kMore;
-      if (!may_be_number(token)) {
-        return bad(
-            fmt::format("\"{}\" is not a number (list {})", printable(token, 40), printable(step.property.name, 40)));
-      }
+      if (!parse_number(token, value)) return bad(not_a_number(token, step.property));
     }
   }
   return Result::kDone;
