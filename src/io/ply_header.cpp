@@ -16,6 +16,7 @@ namespace arris::io {
 namespace {
 
 constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 20;
+constexpr std::size_t kMaxLines = 200'000;
 constexpr std::size_t kMaxElements = 4096;
 constexpr std::size_t kMaxProblems = 20;
 
@@ -86,6 +87,7 @@ class HeaderParser {
     std::string_view line = std::string_view(text_).substr(at_, end - at_);
     if (last == '\n' && line.ends_with('\r')) line.remove_suffix(1);
     at_ = end + 1;
+    if (header_.lines.size() == kMaxLines) refuse(fmt::format("the header has more than {} lines", kMaxLines));
     header_.lines.emplace_back(line);
     return line;
   }

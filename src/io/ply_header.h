@@ -55,11 +55,11 @@ struct PlyHeader {
   const char* format_name() const { return io::format_name(format); }
 };
 
-/// Reads and checks a header of at most 1 MiB (thus fewer than 65 536 properties), in linear time. Accepted: LF, CRLF
-/// and CR line ends (CR in binary files too: then the body begins right behind it), comments and obj_info anywhere,
-/// leading and trailing blanks, all 16 type names and int64/uint64, and before the first element lines of unknown
-/// keywords, which become comments. Throws InputError that names the line, for anything else, for files without a
-/// vertex element with scalar x, y, z, and for property names that occur twice in one element.
+/// Reads and checks a header of at most 1 MiB (thus fewer than 65 536 properties) and 200 000 lines, in linear time.
+/// Accepted: LF, CRLF and CR line ends (CR in binary files too: then the body begins right behind it), comments and
+/// obj_info anywhere, leading and trailing blanks, all 16 type names and int64/uint64, and before the first element
+/// lines of unknown keywords, which become comments. Throws InputError that names the line, for anything else, for
+/// files without a vertex element with scalar x, y, z, and for property names that occur twice in one element.
 PlyHeader read_ply_header(const InputFile& file);
 
 }  // namespace arris::io
