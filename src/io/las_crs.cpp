@@ -91,8 +91,9 @@ CrsSummary from_geotiff(const std::vector<std::byte>& directory, const std::vect
     if (key.location == 0 && key.key == kAngularUnit) angular = key.value;
     const bool cites = key.key == kGeneralCitation || key.key == kGeographicCitation || key.key == kProjectedCitation;
     if (key.location != kTextLocation || !cites || key.value >= texts.size()) continue;
+    if (citation.size() > kMaxText) continue;  // Thousands of long ones would take minutes to compare.
     const std::string_view all(reinterpret_cast<const char*>(texts.data()), texts.size());
-    const std::string_view text = trimmed(all.substr(key.value, key.count));
+    const std::string_view text = trimmed(all.substr(key.value, std::min<std::size_t>(key.count, kMaxText)));
     if (!text.empty() && citation.find(text) == std::string::npos)
       citation += (citation.empty() ? "" : "; ") + std::string(text);
   }
