@@ -31,6 +31,7 @@ ColumnUnion::ColumnUnion(const std::vector<std::unique_ptr<RecordReader>>& input
     for (const RecordColumn& column : input->columns()) {
       const int at = find(column.name);
       if (at < 0) {
+        index_.emplace(column.name, static_cast<int>(columns_.size()));
         columns_.push_back(column);
         continue;
       }
@@ -54,8 +55,8 @@ ColumnUnion::ColumnUnion(const std::vector<std::unique_ptr<RecordReader>>& input
 }
 
 int ColumnUnion::find(std::string_view name) const {
-  const auto found = std::find_if(columns_.begin(), columns_.end(), [&](const auto& c) { return c.name == name; });
-  return found == columns_.end() ? -1 : static_cast<int>(found - columns_.begin());
+  const auto found = index_.find(std::string(name));
+  return found == index_.end() ? -1 : found->second;
 }
 
 void ColumnUnion::map(std::size_t input, std::span<const double> values, std::span<double> out) const {

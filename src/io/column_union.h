@@ -5,7 +5,9 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "io/record_reader.h"
@@ -36,7 +38,8 @@ class ColumnUnion {
     double factor = 1.0;  ///< Of colours.
   };
   std::vector<RecordColumn> columns_;
-  std::vector<std::vector<Route>> routes_;  ///< Per input and column.
+  std::unordered_map<std::string, int> index_;  ///< Of columns_, by common name.
+  std::vector<std::vector<Route>> routes_;      ///< Per input and column.
 };
 
 /// Largest value of a colour stored in that type: 255, 65535, or 1 for floating point.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "core/text.h"
 #include "io/bytes.h"
@@ -21,6 +22,7 @@ class LasRecordReader final : public RecordReader {
     fields_ = las_fields(las.header.point_format);
     for (const LasField& field : fields_)
       columns_.push_back({std::string(field.name), std::string(field.name), field.type});
+    for (const RecordColumn& column : columns_) taken_.insert(column.name);
     const ExtraBytes extra = read_extra_bytes(file, las);
     for (const ExtraAttribute& attribute : extra.attributes) add_extra(attribute);
     if (kLasPointLayouts[las.header.point_format].waveform != 0) losses_.emplace_back("waveforms");
@@ -68,16 +70,17 @@ class LasRecordReader final : public RecordReader {
     }
   }
 
-  /// Extra bytes may be named like a field of the format, or like each other.
-  std::string unique_name(const std::string& name) const {
-    std::string unique = name;
-    for (int n = 2; std::any_of(columns_.begin(), columns_.end(), [&](const auto& c) { return c.name == unique; });
-         ++n) {
-      unique = fmt::format("{}_{}", name, n);
+  /// Extra bytes may be named like a field of the format, or like each other, thousands of times.
+  std::string unique_name(const std::string& name) {
+    if (taken_.insert(name).second) return name;
+    for (int& n = last_number_.try_emplace(name, 1).first->second;;) {
+      std::string unique = fmt::format("{}_{}", name, ++n);
+      if (taken_.insert(unique).second) return unique;
     }
-    return unique;
   }
 
+  std::unordered_set<std::string> taken_;
+  std::unordered_map<std::string, int> last_number_;  ///< By the name that it was appended to.
   std::array<double, 3> scale_;
   std::array<double, 3> offset_;
   std::vector<LasField> fields_;

@@ -64,10 +64,9 @@ double load_ply_value(PlyFormat format, ScalarType type, const std::byte* at) {
 
 PlyRecordWalker::PlyRecordWalker(PlyFormat format, const PlyElement& element, const std::vector<int>& wanted)
     : format_(format), values_(wanted.size()) {
-  for (std::size_t i = 0; i < element.properties.size(); ++i) {
-    const auto found = std::find(wanted.begin(), wanted.end(), static_cast<int>(i));
-    steps_.push_back({element.properties[i], found == wanted.end() ? -1 : static_cast<int>(found - wanted.begin())});
-  }
+  for (const PlyProperty& property : element.properties) steps_.push_back({property, -1});
+  for (std::size_t slot = 0; slot < wanted.size(); ++slot)
+    steps_.at(static_cast<std::size_t>(wanted[slot])).slot = static_cast<int>(slot);
 }
 
 PlyRecordWalker::Result PlyRecordWalker::walk(std::span<const std::byte> bytes, bool file_end) {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -40,6 +41,7 @@ constexpr std::array<Alias, 16> kAliases{{
 class PlyRecordReader final : public RecordReader {
  public:
   explicit PlyRecordReader(const InputFile& file) : header_(read_ply_header(file)) {
+    find_aliases();
     const std::vector<PlyProperty>& properties = header_.vertices().properties;
     std::vector<int> wanted;
     std::string lists;
@@ -63,18 +65,27 @@ class PlyRecordReader final : public RecordReader {
   }
 
  private:
-  std::string common_name(const std::string& name) const {
-    for (const Alias& alias : kAliases) {
-      if (header_.vertices().find(alias.common) >= 0) continue;
-      const auto first = std::find_if(alias.others.begin(), alias.others.end(), [&](const char* other) {
-        return other != nullptr && header_.vertices().find(other) >= 0;
-      });
-      if (first != alias.others.end() && name == *first) return alias.common;
+  /// Which properties have a common name other than their own. Linear in the properties, of which there may be many.
+  void find_aliases() {
+    std::unordered_set<std::string_view> names;
+    for (const PlyProperty& property : header_.vertices().properties) {
+      if (!property.is_list) names.insert(property.name);
     }
-    return name;
+    for (const Alias& alias : kAliases) {
+      if (names.contains(alias.common)) continue;
+      const auto first = std::find_if(alias.others.begin(), alias.others.end(),
+                                      [&](const char* other) { return other != nullptr && names.contains(other); });
+      if (first != alias.others.end()) common_names_.emplace(*first, alias.common);
+    }
+  }
+
+  std::string common_name(const std::string& name) const {
+    const auto found = common_names_.find(name);
+    return found == common_names_.end() ? name : found->second;
   }
 
   PlyHeader header_;
+  std::unordered_map<std::string, std::string> common_names_;  ///< By the name in the file.
   std::unique_ptr<PlyRecordWalker> walker_;
 };
 
