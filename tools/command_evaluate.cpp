@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <limits>
 
 #include "commands.h"
 #include "common_options.h"
@@ -11,6 +12,7 @@
 #include "core/units.h"
 #include "evaluate/contour_evaluation.h"
 #include "evaluate/evaluation_text.h"
+#include "evaluate/label_comparison.h"
 #include "io/attribute_reader.h"
 #include "io/point_source.h"
 
@@ -24,8 +26,11 @@ struct EvaluateOptions {
   std::string edges = "all";
   std::string classes = "all";
   std::string spacing, noise;
+  std::string local_spacing;
+  double min_score = -std::numeric_limits<double>::infinity();
   bool forgive = false;
   bool json = false;
+  bool csv = false;
 };
 
 double world(const io::PointBatch& batch, const io::SourceInfo& info, int axis, std::size_t i) {
@@ -67,7 +72,7 @@ std::vector<evaluate::PredictedPoint> read_predictions(const std::string& path, 
   return points;
 }
 
-void add_input(const std::string& path, evaluate::InputCoverage& coverage) {
+void add_input(const std::string& path, evaluate::InputCoverage& coverage, evaluate::LabelComparison& labels) {
   io::InputSet inputs(io::expand_inputs(std::vector<std::string>{path}));
   io::PointBatch batch;
   std::vector<evaluate::Vec3> points;
@@ -77,6 +82,7 @@ void add_input(const std::string& path, evaluate::InputCoverage& coverage) {
     for (std::size_t i = 0; i < batch.count; ++i)
       points.push_back({world(batch, info, 0, i), world(batch, info, 1, i), world(batch, info, 2, i)});
     coverage.add(points);
+    labels.add(points);
   }
 }
 
@@ -88,15 +94,28 @@ int run_evaluate(const EvaluateOptions& o) {
   options.forgive_other_kinds = o.forgive;
   if (!o.spacing.empty()) options.spacing = parse_length(o.spacing);
   if (!o.noise.empty()) options.noise = parse_length(o.noise);
+  if (o.local_spacing == "mean") options.spacing_of = evaluate::SpacingOf::kLocal;
+  if (o.local_spacing == "max") options.spacing_of = evaluate::SpacingOf::kLocalMax;
+  options.min_score = static_cast<float>(o.min_score);
   const std::vector<evaluate::PredictedPoint> points = read_predictions(o.prediction, options.scores);
+  if (std::isfinite(o.min_score) && !options.scores) {
+    throw ConfigError(printable(o.prediction) + " has no EdgeScore; leave --min-score out");
+  }
   std::optional<evaluate::InputCoverage> coverage;
+  std::optional<evaluate::LabelComparison> labels;
   if (!o.input.empty()) {
     coverage.emplace(truth, options);
-    add_input(o.input, *coverage);
+    labels.emplace(points, truth, options);
+    add_input(o.input, *coverage, *labels);
   }
-  const evaluate::ContourEvaluation result =
+  evaluate::ContourEvaluation result =
       evaluate::evaluate_contours(points, truth, options, coverage ? &*coverage : nullptr);
-  write_text("-", o.json ? evaluate::to_json(result) : evaluate::to_table(result), false);
+  if (labels) result.labels = labels->result();
+  write_text("-",
+             o.json  ? evaluate::to_json(result)
+             : o.csv ? evaluate::to_csv(result)
+                     : evaluate::to_table(result),
+             false);
   return 0;
 }
 
@@ -107,17 +126,26 @@ void add_evaluate(CLI::App& app, Session& session) {
   CLI::App* verb = app.add_subcommand("evaluate", "Judge contour points against a scene's truth");
   verb->add_option("prediction", o->prediction, "Contour points (output of extract), or any cloud")->required();
   verb->add_option("--truth", o->truth, "Truth of the scene (CSV of synth)")->required();
-  verb->add_option("--input", o->input, "The scan itself: prints the recall that a perfect detector could reach on it");
+  verb->add_option(
+      "--input", o->input,
+      "The scan itself: prints the recall that a perfect detector could reach on it, and how the labels of its "
+      "points agree with the truth");
   verb->add_option("--edges", o->edges, "Truth that counts: all, folds, boundaries, or kinds joined by commas")
       ->capture_default_str();
   verb->add_option("--classes", o->classes, "Predictions that count")
       ->check(CLI::IsMember({"all", "fold", "boundary", "strong-boundary"}))
       ->capture_default_str();
   verb->add_option("--spacing", o->spacing, "Point spacing (length; default: the truth's)");
+  verb->add_flag(
+          "--local-spacing{mean}", o->local_spacing,
+          "Tolerances are multiples of each edge's own spacing in the truth; =max: of that in the coarser direction")
+      ->check(CLI::IsMember({"mean", "max"}));
+  verb->add_option("--min-score", o->min_score, "Predictions with a lower EdgeScore do not count");
   verb->add_option("--noise", o->noise, "Noise (length; default: the truth's)");
   verb->add_flag("--forgive-other-kinds", o->forgive,
                  "Predictions near truth that does not count are left out instead of called false");
-  verb->add_flag("--json", o->json, "As JSON");
+  CLI::Option* json = verb->add_flag("--json", o->json, "As JSON");
+  verb->add_flag("--csv", o->csv, "As CSV, a line per tolerance")->excludes(json);
   verb->callback([o, &session] { session.run = [o] { return run_evaluate(*o); }; });
 }
 

@@ -20,6 +20,7 @@ struct ExtractOptions {
   bool overwrite = false;
   bool keep_all = false;
   bool mixed_crs = false;
+  bool refined = false;
   bool json = false;
 };
 
@@ -28,13 +29,17 @@ std::string percent(std::uint64_t part, std::uint64_t whole) {
 }
 
 std::string describe_choices(const pipeline::ExtractReport& r, const std::string& memory_why) {
-  const std::string ball = r.parameters.radius > 0.0 ? fmt::format("{:.6g}", r.parameters.radius)
-                                                     : fmt::format("{:g} local spacings", r.parameters.radius_factor);
+  std::string ball = "5 to 13 local spacings";
+  if (r.parameters.method == ContourParameters::Method::kLiu) {
+    const LiuParameters& liu = r.parameters.liu;
+    ball = liu.radius > 0.0 ? fmt::format("{:.6g}", liu.radius) : fmt::format("{:g} local spacings", liu.radius_factor);
+  }
   return fmt::format(
-      "spacing about {:.4g}, ball radius {}, search limit {:.4g}; lattice step {:g}\n"
+      "method {}, spacing about {:.4g}, ball radius {}, search limit {:.4g}; lattice step {:g}\n"
       "memory {} ({}), {} threads; {} tiles of at most {} points, halo {:.3g} to {:.3g}",
-      r.spacing, ball, r.parameters.max_radius, r.lattice.step, human_bytes(r.memory_budget_bytes), memory_why,
-      r.threads, grouped(r.tiles), grouped(r.tile_points_limit), r.least_halo, r.widest_halo);
+      r.parameters.name(), r.spacing, ball, r.parameters.max_radius(), r.lattice.step,
+      human_bytes(r.memory_budget_bytes), memory_why, r.threads, grouped(r.tiles), grouped(r.tile_points_limit),
+      r.least_halo, r.widest_halo);
 }
 
 std::string describe_result(const pipeline::ExtractReport& r) {
@@ -55,6 +60,7 @@ int run_extract(ExtractOptions& o, const CLI::App& verb, Session& session) {
   request.overwrite = o.overwrite;
   request.keep_all = o.keep_all;
   request.mixed_crs = o.mixed_crs;
+  request.refined = o.refined;
   request.hash_inputs = !o.report.empty();
   ProgressDisplay display(o.job.display.mode(), o.job.display.verbosity());
   const pipeline::ExtractReport report = pipeline::extract(request, display, session.cancel);
@@ -76,7 +82,7 @@ std::string describe_plan(const pipeline::ExtractReport& r, const std::string& m
   }
   text += fmt::format("points            {}\n", grouped(r.points_in));
   text += fmt::format("spacing           about {:.4g}\n", r.spacing);
-  text += fmt::format("search limit      {:.4g}\n", r.parameters.max_radius);
+  text += fmt::format("search limit      {:.4g}\n", r.parameters.max_radius());
   text += fmt::format("tiles             {} of at most {} points (limit {}), {} in flight\n", grouped(r.tiles),
                       grouped(r.largest_tile_points), grouped(r.tile_points_limit), r.tile_workers);
   text += fmt::format("halo              {:.4g} to {:.4g}; {:.2f} copies of each point\n", r.least_halo, r.widest_halo,
@@ -108,6 +114,8 @@ void add_extract(CLI::App& app, Session& session) {
       ->take_all();
   verb->add_option("--report", options->report, "Write what was done as JSON");
   verb->add_flag("--overwrite", options->overwrite, "Replace existing outputs");
+  verb->add_flag("--refined", options->refined,
+                 "Add EdgeX, EdgeY, EdgeZ: the way from the point to the refined edge (method arris)");
   verb->add_flag("--keep-all", options->keep_all, "Write every point, with EdgeClass 0 where it is no contour point");
   verb->add_flag("--mixed-crs", options->mixed_crs,
                  "Allow inputs with different coordinate reference systems in one output");

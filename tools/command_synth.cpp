@@ -24,6 +24,7 @@ struct SynthOptions {
   synth::SceneRequest request;
   std::string output;
   std::string truth;
+  std::string truth_of = "scan";
   std::string spacing, noise, scale;
   std::vector<double> shift;
   std::vector<std::string> options;
@@ -92,7 +93,8 @@ int run_synth(SynthOptions& o, Session& session) {
     points += block.size();
     display.advance(block.size());
   }
-  if (!o.truth.empty()) evaluate::write_truth_csv(std::filesystem::path(o.truth), scene.truth(), o.overwrite);
+  const synth::TruthOf of = o.truth_of == "model" ? synth::TruthOf::kModel : synth::TruthOf::kScan;
+  if (!o.truth.empty()) evaluate::write_truth_csv(std::filesystem::path(o.truth), scene.truth(of), o.overwrite);
   writer->commit();
   display.finish();
   display.note(fmt::format("{}: {} points, spacing {:.4g}; wrote {}", o.request.scene, grouped(points), scene.spacing(),
@@ -109,6 +111,11 @@ void add_synth(CLI::App& app, Session& session) {
   verb->add_option("scene", o->request.scene, "Scene, see below")->required();
   verb->add_option("-o,--output", o->output, "Output, .las or .ply")->required();
   verb->add_option("--truth", o->truth, "Write the scene's edges as CSV");
+  verb->add_option("--truth-of", o->truth_of,
+                   "Scanned scenes: scan, the contours that the points show (with the spacing beside each), or model, "
+                   "all edges of the model")
+      ->check(CLI::IsMember({"scan", "model"}))
+      ->capture_default_str();
   verb->add_option("--points", o->request.points, "About so many points (instead of --spacing)");
   verb->add_option("--spacing", o->spacing, "Point spacing (length)");
   verb->add_option("--noise", o->noise, "Standard deviation of the noise (length); scanned scenes: along the ray");

@@ -22,11 +22,6 @@ void add_liu_options(CLI::App& verb, JobOptions& o) {
                   "Reject a k whose second eigenvalue is below this share of the first")
       ->group(group)
       ->capture_default_str();
-  verb.add_option("--spacing", o.spacing, "One point spacing for all points (length); estimated per point if not given")
-      ->group(group);
-  verb.add_option("--max-radius", o.max_radius,
-                  "Neighbours beyond are not neighbours (length); chosen from the scan if not given")
-      ->group(group);
   group = "Method liu: boundary";
   verb.add_option("--alpha", o.liu.gap_deg, "Azimuth gap that makes a boundary, degrees (eq. 10)")
       ->group(group)
@@ -41,7 +36,6 @@ void add_liu_options(CLI::App& verb, JobOptions& o) {
       ->group(group)
       ->capture_default_str();
   verb.add_flag("--literal", o.literal, "The paper to the letter: --alpha 90 and --neighbours-only")->group(group);
-  verb.add_flag("--no-boundary", o.no_boundary, "Skip the boundary tests")->group(group);
   group = "Method liu: fold";
   verb.add_option("--radius-factor", o.liu.radius_factor, "Ball radius in local spacings (eq. 12)")
       ->group(group)
@@ -68,7 +62,48 @@ void add_liu_options(CLI::App& verb, JobOptions& o) {
   verb.add_option("--min-votes", o.liu.min_votes, "Fold points emitted by fewer balls are dropped")
       ->group(group)
       ->capture_default_str();
+}
+
+void add_contour_options(CLI::App& verb, JobOptions& o) {
+  const char* group = "Contours";
+  verb.add_option("--method", o.method, "arris: the default, nothing to set; liu: Liu et al. as published")
+      ->check(CLI::IsMember({"arris", "liu"}))
+      ->group(group)
+      ->capture_default_str();
+  verb.add_option("--spacing", o.spacing, "One point spacing for all points (length); estimated per point if not given")
+      ->group(group);
+  verb.add_option("--max-radius", o.max_radius,
+                  "Neighbours beyond are not neighbours (length); chosen from the scan if not given")
+      ->group(group);
+  verb.add_flag("--no-boundary", o.no_boundary, "Skip the boundary tests")->group(group);
   verb.add_flag("--no-fold", o.no_fold, "Skip the fold tests")->group(group);
+  group = "Method arris";
+  verb.add_option("--precision", o.precision,
+                  "Keep points whose EdgeScore is at least this: the probability that an edge is there (default 0.5)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(group);
+  verb.add_flag("--thin", o.thin, "Keep one chain of points along each contour")->group(group);
+  verb.add_option("--viewpoint", o.viewpoint,
+                  "From where convex and concave are told apart: above, none, or X,Y,Z of the scanner")
+      ->group(group)
+      ->capture_default_str();
+}
+
+/// "above", "none" or three coordinates.
+void parse_viewpoint(const std::string& text, ArrisParameters& arris) {
+  using View = ArrisParameters::View;
+  arris.view = text == "none" ? View::kNone : text == "above" ? View::kAbove : View::kPoint;
+  if (arris.view != View::kPoint) return;
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [next, error] = std::from_chars(at, end, arris.viewpoint[axis]);
+    const bool last = axis == 2;
+    if (error != std::errc{} || (last ? next != end : next == end || *next != ',')) {
+      throw ConfigError("--viewpoint '" + printable(text, 60) + "' is neither above, none nor X,Y,Z");
+    }
+    at = next + 1;
+  }
 }
 
 std::uint64_t parse_tile_points(const std::string& text) {
@@ -91,6 +126,17 @@ io::PointExclusion parse_exclusion(const JobOptions& o) {
   return exclusion;
 }
 
+/// An option of another method has no effect: better an error than a surprise.
+void refuse_foreign_options(const std::string& method, const CLI::App& verb) {
+  for (const CLI::Option* option : verb.get_options()) {
+    const bool foreign =
+        option->get_group().rfind("Method ", 0) == 0 && option->get_group().rfind("Method " + method, 0) != 0;
+    if (foreign && option->count() > 0) {
+      throw ConfigError(option->get_name() + " belongs to another method than " + method + "; see --method");
+    }
+  }
+}
+
 double length_or(const std::string& text, double otherwise) {
   return text.empty() ? otherwise : parse_length(text);
 }
@@ -109,7 +155,6 @@ void add_job_options(CLI::App& verb, JobOptions& o) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(0, 255));
-  verb.add_option("--method", o.method, "Method")->check(CLI::IsMember({"liu"}))->capture_default_str();
   verb.add_option("--memory", o.memory,
                   "Bound on the memory of the whole process: 8GiB, 512MiB, 60% (default 75% of what there is)");
   verb.add_option("--threads", o.threads, "Threads; 0 for all")->capture_default_str();
@@ -120,6 +165,7 @@ void add_job_options(CLI::App& verb, JobOptions& o) {
   verb.add_option("--lattice", o.lattice, "Step of the analysis lattice (length; default: the LAS scale, else 0.0001)");
   verb.add_option("--config",
                   "Read options from a TOML or INI file; those on the command line win");  // See config_file.h.
+  add_contour_options(verb, o);
   add_liu_options(verb, o);
   add_display_options(verb, o.display);
 }
@@ -138,7 +184,17 @@ pipeline::ExtractRequest to_request(JobOptions& o, const CLI::App& verb) {
   request.tile_points_cap = parse_tile_points(o.tile_points);
   request.lattice_step = length_or(o.lattice, 0.0);
 
-  LiuParameters& liu = request.liu;
+  request.method.method = o.method == "liu" ? ContourParameters::Method::kLiu : ContourParameters::Method::kArris;
+  ArrisParameters& arris = request.method.arris;
+  arris.spacing = length_or(o.spacing, 0.0);
+  arris.max_radius = length_or(o.max_radius, 0.0);
+  if (o.precision >= 0.0) arris.min_score = o.precision;
+  arris.boundary = !o.no_boundary;
+  arris.fold = !o.no_fold;
+  arris.thin = o.thin;
+  parse_viewpoint(o.viewpoint, arris);
+  refuse_foreign_options(o.method, verb);
+  LiuParameters& liu = request.method.liu;
   liu = o.liu;
   if (o.literal && verb.count("--alpha") == 0) liu.gap_deg = 90.0;
   liu.covariance_with_target = !(o.neighbours_only || o.literal);

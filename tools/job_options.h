@@ -21,11 +21,14 @@ struct JobOptions {
   std::string temp_dir;
   std::string max_temp;
   std::string tile_points = "none";
-  std::string method = "liu";
+  std::string method = "arris";
   std::string lattice;
   LiuParameters liu;
   std::string span = "bracket";
   std::string emit = "emit";
+  double precision = -1.0;
+  bool thin = false;
+  std::string viewpoint = "above";
   std::string radius, cf1, far_distance, spacing, max_radius, noise;  // Lengths with units.
   bool literal = false;
   bool neighbours_only = false;

@@ -29,6 +29,13 @@ inline std::size_t row_size_bytes(const std::vector<ColumnSpec>& columns) {
 }
 
 /// Bits of EdgeClass.
-enum EdgeClassBit : std::uint8_t { kBoundary = 1, kWeakBoundary = 2, kFold = 4, kSupervoxelContact = 8 };
+enum EdgeClassBit : std::uint8_t {
+  kBoundary = 1,
+  kWeakBoundary = 2,
+  kFold = 4,
+  kSupervoxelContact = 8,
+  kConvex = 16,   ///< A fold seen from outside of the angle between its surfaces: a ridge, a corner of a house.
+  kConcave = 32,  ///< A fold seen from inside of it: a valley, the foot of a wall.
+};
 
 }  // namespace arris

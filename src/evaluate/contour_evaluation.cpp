@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "evaluate/corners.h"
 #include "evaluate/edge_index.h"
 #include "evaluate/evaluation_setup.h"
 #include "evaluate/score_curve.h"
@@ -18,13 +19,14 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;
 constexpr double kHighQuantile = 0.95;
+constexpr double kCornerJoin = 0.1, kCornerReach = 2.0;  // In spacings.
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Selected detections and their distances, in the order of the predictions.
 struct Detections {
   std::vector<Vec3> positions;
   std::vector<float> scores;
-  std::vector<double> to_truth;   ///< To the edges that count.
+  std::vector<double> to_truth;   ///< To the edges that count, in their units.
   std::vector<double> to_others;  ///< To the other edges; infinite unless forgiven kinds are asked for.
 };
 
@@ -32,10 +34,13 @@ Detections select(std::span<const PredictedPoint> predictions, const EvaluationO
                   ContourEvaluation& result) {
   Detections detections;
   for (const PredictedPoint& p : predictions) {
-    if ((p.classes & options.class_mask) == 0) {
+    const Judgement judgement = judge(p, options);
+    if (judgement == Judgement::kMasked) {
       ++result.masked;
-    } else if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+    } else if (judgement == Judgement::kNonFinite) {
       ++result.non_finite;
+    } else if (judgement == Judgement::kBelowMinScore) {
+      ++result.below_min_score;
     } else {
       detections.positions.push_back({p.x, p.y, p.z});
       // A score that is not a number ranks last.
@@ -50,11 +55,12 @@ Detections select(std::span<const PredictedPoint> predictions, const EvaluationO
   return detections;
 }
 
-std::vector<double> distances_to(const std::vector<TruthEdge>& edges, const std::vector<Vec3>& points) {
-  const EdgeIndex index(edges);
+std::vector<double> distances_to(const std::vector<TruthEdge>& edges, const std::vector<double>& units,
+                                 const std::vector<Vec3>& points, double limit = kInfinity) {
+  const EdgeIndex index(edges, units);
   std::vector<double> distances(points.size());
   parallel_for_chunks(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) distances[i] = index.nearest(points[i]).distance;
+    for (std::size_t i = begin; i < end; ++i) distances[i] = index.nearest(points[i], limit).distance;
   });
   return distances;
 }
@@ -130,6 +136,7 @@ void judge_truth(const TruthSamples& truth, const std::vector<TruthEdge>& edges,
   const auto& samples = truth.samples();
   if (samples.empty()) return;
   std::array<double, kEdgeKinds> covered{}, total{};
+  double covered_spacings = 0.0;
   for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
     const TruthEdge& edge = edges[samples[begin].edge];
     std::size_t hits = 0;
@@ -139,6 +146,8 @@ void judge_truth(const TruthSamples& truth, const std::vector<TruthEdge>& edges,
     const double piece_length = samples[begin].length;
     const std::size_t kind = static_cast<std::size_t>(edge.kind);
     covered[kind] += static_cast<double>(hits) * piece_length;
+    covered_spacings +=
+        static_cast<double>(hits) * piece_length / (setup.local ? truth.unit_of(samples[begin]) : setup.spacing);
     total[kind] += static_cast<double>(end - begin) * piece_length;
     count_gaps(distances, begin, end, edge.closed(), piece_length, limit, result);
   }
@@ -149,8 +158,7 @@ void judge_truth(const TruthSamples& truth, const std::vector<TruthEdge>& edges,
   const double total_length = std::accumulate(total.begin(), total.end(), 0.0);
   result.recall = share(covered_length, total_length);
   result.gaps_per_length = static_cast<double>(result.gaps) / total_length;
-  if (covered_length > 0.0)
-    result.thinness = static_cast<double>(result.true_positives) * setup.spacing / covered_length;
+  if (covered_spacings > 0.0) result.thinness = static_cast<double>(result.true_positives) / covered_spacings;
   const double sum = result.precision.value_or(0.0) + *result.recall;
   result.f1 = sum > 0.0 ? 2.0 * result.precision.value_or(0.0) * *result.recall / sum : 0.0;
 }
@@ -196,6 +204,33 @@ double covered_share(const std::vector<double>& distances, const std::vector<Tru
   return share(covered, total);
 }
 
+/// Which samples lie within two spacings of a corner of the whole truth.
+std::vector<char> near_corners(const std::vector<TruthEdge>& edges, const TruthSamples& truth,
+                               const EvaluationSetup& setup) {
+  const Corners corners(edges, kCornerJoin * setup.spacing);
+  const auto& samples = truth.samples();
+  std::vector<char> near(samples.size(), 0);
+  parallel_for_chunks(samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double spacing = setup.local ? truth.unit_of(samples[i]) : setup.spacing;
+      near[i] = corners.within(samples[i].position, kCornerReach * spacing) ? 1 : 0;
+    }
+  });
+  return near;
+}
+
+/// Length of the chosen samples; of those among them that a detection covers.
+std::array<double, 2> chosen_length(const TruthSamples& truth, const std::vector<char>& chosen,
+                                    const std::vector<double>& distances, double limit) {
+  double all = 0.0, covered = 0.0;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (chosen[i] == 0) continue;
+    all += truth.samples()[i].length;
+    if (distances[i] <= limit) covered += truth.samples()[i].length;
+  }
+  return {all, covered};
+}
+
 }  // namespace
 
 ContourEvaluation evaluate_contours(std::span<const PredictedPoint> predictions, const Truth& truth,
@@ -205,28 +240,40 @@ ContourEvaluation evaluate_contours(std::span<const PredictedPoint> predictions,
   result.spacing = setup.spacing;
   result.noise = setup.noise;
   result.truth_edges = setup.counted.size();
-  const TruthSamples samples(setup.counted, 0.5 * setup.spacing);
+  result.spacing_of = options.spacing_of;
+  const TruthSamples samples(setup.counted, sample_step(setup), setup.units);
   result.truth_length = samples.total_length();
 
   Detections detections = select(predictions, options, result);
-  detections.to_truth = distances_to(setup.counted, detections.positions);
-  detections.to_others = options.forgive_other_kinds ? distances_to(setup.others, detections.positions)
-                                                     : std::vector<double>(detections.positions.size(), kInfinity);
+  // With local units far distances mean nothing, and are slow to find.
+  const double farthest = setup.local ? setup.tolerances.back() * (1.0 + kToleranceSlack) : kInfinity;
+  detections.to_truth = distances_to(setup.counted, setup.units, detections.positions, farthest);
+  detections.to_others = options.forgive_other_kinds
+                             ? distances_to(setup.others, setup.other_units, detections.positions, farthest)
+                             : std::vector<double>(detections.positions.size(), kInfinity);
   const BoxTree tree(detections.positions.size(), [&](std::size_t i) {
     return Box3{detections.positions[i], detections.positions[i]};
   });
   const std::vector<double> to_detections = distances_to(tree, detections.positions, samples.samples());
+  std::vector<double> to_detections_in_units = to_detections;
+  for (std::size_t i = 0; i < to_detections.size(); ++i) {
+    to_detections_in_units[i] /= samples.unit_of(samples.samples()[i]);
+  }
   const std::vector<double> to_input = input != nullptr ? input->distances() : std::vector<double>{};
   if (input != nullptr && to_input.size() != samples.samples().size()) {
     throw ConfigError("the coverage of the input was computed with other options than the evaluation");
   }
 
+  const std::vector<char> at_corner = near_corners(truth.edges, samples, setup);
   for (const double tolerance : setup.tolerances) {
     ToleranceResult row;
     row.tolerance = tolerance;
     const double limit = tolerance * (1.0 + kToleranceSlack);
     judge_detections(detections, limit, row);
-    judge_truth(samples, setup.counted, to_detections, setup, limit, row);
+    judge_truth(samples, setup.counted, to_detections_in_units, setup, limit, row);
+    const auto [corners, covered] = chosen_length(samples, at_corner, to_detections_in_units, limit);
+    result.corner_length = corners;
+    if (corners > 0.0) row.recall_of_corners = share(covered, corners);
     if (input != nullptr && row.recall) row.ceiling = covered_share(to_input, samples.samples(), limit);
     if (options.scores && row.recall) {
       row.average_precision = average_precision(
@@ -234,7 +281,8 @@ ContourEvaluation evaluate_contours(std::span<const PredictedPoint> predictions,
     }
     result.tolerances.push_back(row);
   }
-  judge_whole_sets(detections.to_truth, to_detections, samples.samples(), result);
+  judge_whole_sets(setup.local ? distances_to(setup.counted, {}, detections.positions) : detections.to_truth,
+                   to_detections, samples.samples(), result);
   return result;
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "evaluate/unit_groups.h"
+
 namespace arris::evaluate {
 
 namespace {
@@ -30,32 +32,43 @@ Box3 piece_box(const TruthEdge& edge, double from, double to) {
 
 }  // namespace
 
-EdgeIndex::EdgeIndex(std::vector<TruthEdge> edges) : edges_(std::move(edges)) {
+EdgeIndex::EdgeIndex(std::vector<TruthEdge> edges, std::vector<double> units)
+    : edges_(std::move(edges)), units_(std::move(units)) {
+  if (units_.empty()) units_.assign(edges_.size(), 1.0);
   Box3 scene;
   for (const TruthEdge& edge : edges_) scene.include(piece_box(edge, 0.0, 1.0));
   const double piece_length = edges_.empty() ? 1.0 : norm(scene.max - scene.min) / kPiecesAlongScene;
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
-    const double by_length = piece_length > 0.0 ? std::ceil(edges_[i].length() / piece_length) : 1.0;
-    const double by_angle = std::ceil(edges_[i].sweep_deg / kArcPieceDeg);
-    const int count = static_cast<int>(std::clamp(std::max(by_length, by_angle), 1.0, 2.0 * kPiecesAlongScene));
-    for (int k = 0; k < count; ++k) {
-      pieces_.push_back({i, piece_box(edges_[i], static_cast<double>(k) / count, (k + 1.0) / count)});
+  for (const UnitGroup& of_unit : group_by_unit(units_)) {
+    Group& group = groups_.emplace_back();
+    group.longest_unit = of_unit.longest;
+    for (const std::uint32_t i : of_unit.items) {
+      const double by_length = piece_length > 0.0 ? std::ceil(edges_[i].length() / piece_length) : 1.0;
+      const double by_angle = std::ceil(edges_[i].sweep_deg / kArcPieceDeg);
+      const int count = static_cast<int>(std::clamp(std::max(by_length, by_angle), 1.0, 2.0 * kPiecesAlongScene));
+      for (int k = 0; k < count; ++k) {
+        group.pieces.push_back({i, piece_box(edges_[i], static_cast<double>(k) / count, (k + 1.0) / count)});
+      }
     }
+    group.tree =
+        BoxTree(group.pieces.size(), [&pieces = group.pieces](std::size_t i) -> const Box3& { return pieces[i].box; });
   }
-  tree_ = BoxTree(pieces_.size(), [this](std::size_t i) -> const Box3& { return pieces_[i].box; });
 }
 
 EdgeIndex::Nearest EdgeIndex::nearest(const Vec3& point, double limit) const {
   Nearest best;
-  double squared_limit = limit * limit;
-  tree_.search(point, squared_limit, [&](std::uint32_t piece) {
-    if (pieces_[piece].box.squared_distance(point) > squared_limit) return;
-    const std::size_t edge = pieces_[piece].edge;
-    const double distance = edges_[edge].distance(point);
-    if (distance > limit || distance > best.distance || (distance == best.distance && edge >= best.edge)) return;
-    best = {edge, distance};
-    squared_limit = std::min(squared_limit, distance * distance);
-  });
+  for (const Group& group : groups_) {
+    const auto squared_reach = [](double distance, double unit) { return distance * unit * (distance * unit); };
+    double squared_limit = squared_reach(std::min(limit, best.distance), group.longest_unit);
+    group.tree.search(point, squared_limit, [&](std::uint32_t item) {
+      const Piece& piece = group.pieces[item];
+      if (piece.box.squared_distance(point) > squared_limit) return;
+      const double distance = edges_[piece.edge].distance(point) / units_[piece.edge];
+      if (distance > limit || distance > best.distance || (distance == best.distance && piece.edge >= best.edge))
+        return;
+      best = {piece.edge, distance};
+      squared_limit = std::min(squared_limit, squared_reach(distance, group.longest_unit));
+    });
+  }
   return best;
 }
 

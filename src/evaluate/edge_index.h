@@ -10,31 +10,38 @@
 
 namespace arris::evaluate {
 
-/// Immutable; safe to query from several threads. Law: nearest(p).distance equals the smallest edge.distance(p) of all
-/// edges.
+/// Immutable; safe to query from several threads. Law: nearest(p).distance equals the smallest edge.distance(p) / unit
+/// of all edges.
 class EdgeIndex {
  public:
   struct Nearest {
     std::size_t edge = 0;  ///< Index into edges(); the smallest among equally near ones.
-    double distance = std::numeric_limits<double>::infinity();
+    double distance = std::numeric_limits<double>::infinity();  ///< In units of that edge.
   };
 
-  explicit EdgeIndex(std::vector<TruthEdge> edges);
+  /// @param units  what distances to each edge are measured in, data units, > 0; empty: 1 for all.
+  explicit EdgeIndex(std::vector<TruthEdge> edges, std::vector<double> units = {});
 
   const std::vector<TruthEdge>& edges() const { return edges_; }
-  /// Infinite distance if there is no edge within `limit`.
+  /// Infinite distance if there is no edge within `limit` of its units.
   Nearest nearest(const Vec3& point, double limit = std::numeric_limits<double>::infinity()) const;
 
  private:
-  /// Long edges have boxes that say little, so the tree holds pieces of them.
+  /// Long edges have boxes that say little, so the trees hold pieces of them.
   struct Piece {
     std::size_t edge;
     Box3 box;
   };
+  /// Edges of similar units.
+  struct Group {
+    std::vector<Piece> pieces;
+    BoxTree tree;
+    double longest_unit = 1.0;
+  };
 
   std::vector<TruthEdge> edges_;
-  std::vector<Piece> pieces_;
-  BoxTree tree_;
+  std::vector<double> units_;
+  std::vector<Group> groups_;
 };
 
 }  // namespace arris::evaluate

@@ -15,10 +15,24 @@ constexpr double kToleranceSlack = 1e-6;
 struct EvaluationSetup {
   double spacing = 0.0;
   double noise = 0.0;
-  std::vector<double> tolerances;  ///< Ascending, unique, data units.
+  /// Ascending, unique; in units: data units, or local spacings.
+  std::vector<double> tolerances;
+  /// What distances to each counted edge and each other edge are measured in, data units: 1, or the edge's spacing.
+  std::vector<double> units, other_units;
+  bool local = false;              ///< Units are local spacings.
   std::vector<TruthEdge> counted;  ///< Edges of the kinds that count, in the truth's order.
   std::vector<TruthEdge> others;
 };
+
+enum class Judgement : std::uint8_t { kCounts, kMasked, kNonFinite, kBelowMinScore };
+
+/// Whether a prediction is a detection.
+Judgement judge(const PredictedPoint& prediction, const EvaluationOptions& options);
+
+/// Half a spacing in units: the longest piece of the truth that recall is counted over.
+inline double sample_step(const EvaluationSetup& setup) {
+  return 0.5 * (setup.local ? 1.0 : setup.spacing);
+}
 
 /// Throws ConfigError.
 EvaluationSetup prepare(const Truth& truth, const EvaluationOptions& options);

@@ -11,6 +11,10 @@ namespace arris::evaluate {
 /// stable.
 std::string to_json(const ContourEvaluation& evaluation);
 
+/// One line per tolerance under a line of names, separated by commas; undefined values are empty. Columns may be added
+/// at the end.
+std::string to_csv(const ContourEvaluation& evaluation);
+
 /// A table with one line per tolerance, recall per kind, and the distances of the whole sets; "-" where undefined.
 std::string to_table(const ContourEvaluation& evaluation);
 

@@ -9,12 +9,12 @@ namespace arris::evaluate {
 
 struct InputCoverage::Impl {
   Impl(const EvaluationSetup& setup)
-      : samples(setup.counted, 0.5 * setup.spacing),
-        squared_limit(std::pow(setup.tolerances.back() * (1.0 + kToleranceSlack), 2)),
+      : samples(setup.counted, sample_step(setup), setup.units),
+        limit(setup.tolerances.back() * (1.0 + kToleranceSlack)),
         squared(samples.samples().size(), std::numeric_limits<double>::infinity()) {}
 
   TruthSamples samples;
-  double squared_limit;
+  double limit;  ///< In units of the samples.
   std::vector<double> squared;
 };
 
@@ -27,18 +27,20 @@ void InputCoverage::add(std::span<const Vec3> points) {
   const auto& samples = impl_->samples.samples();
   for (const Vec3& p : points) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
-    double limit = impl_->squared_limit;
-    impl_->samples.tree().search(p, limit, [&](std::uint32_t i) {
+    impl_->samples.search(p, impl_->limit, [&](std::uint32_t i) {
+      const double reach = impl_->limit * impl_->samples.unit_of(samples[i]);
       const Vec3 difference = samples[i].position - p;
       const double squared = dot(difference, difference);
-      if (squared <= impl_->squared_limit && squared < impl_->squared[i]) impl_->squared[i] = squared;
+      if (squared <= reach * reach && squared < impl_->squared[i]) impl_->squared[i] = squared;
     });
   }
 }
 
 std::vector<double> InputCoverage::distances() const {
   std::vector<double> result(impl_->squared.size());
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = std::sqrt(impl_->squared[i]);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i] = std::sqrt(impl_->squared[i]) / impl_->samples.unit_of(impl_->samples.samples()[i]);
+  }
   return result;
 }
 

@@ -20,7 +20,8 @@ std::vector<std::pair<float, double>> covered_samples(const ScoredDetections& de
   std::vector<std::optional<float>> best(samples.size());
   parallel_for_chunks(samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      double squared_limit = limit * limit;
+      const double reach = limit * truth.unit_of(samples[i]);
+      double squared_limit = reach * reach;
       tree.search(samples[i].position, squared_limit, [&](std::uint32_t item) {
         const Vec3 difference = detections.positions[item] - samples[i].position;
         if (dot(difference, difference) > squared_limit) return;

@@ -18,6 +18,7 @@ struct ScoredDetections {
 
 /// Sum over falling thresholds of (gain in recall) * (precision there), without interpolation; 0 without detections.
 /// Equal scores enter together, so the order of detections has no influence. @param tree  over positions.
+/// @param limit  and the detections' distances are in units of the truth's edges.
 double average_precision(const ScoredDetections& detections, const BoxTree& tree, const TruthSamples& truth,
                          double limit);
 

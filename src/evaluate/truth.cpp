@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -19,14 +20,15 @@ namespace {
 
 constexpr std::string_view kMagic = "# arris truth 1";
 constexpr std::string_view kColumns = "kind,role,shape,angle_deg,x0,y0,z0,x1,y1,z1,x2,y2,z2,sweep_deg";
+constexpr std::string_view kSpacingColumns = ",spacing,spacing_max";
 constexpr std::size_t kTextFields = 3;
-constexpr std::size_t kNumbers = 11;
+constexpr std::size_t kNumbers = 11, kSpacingNumbers = 2;
 constexpr std::size_t kLongestLine = 4096;
 constexpr double kUnitTolerance = 1e-6;  // Of hand-written axes; those that arris writes are good to 1e-15.
 
 struct Row {
   std::array<std::string_view, kTextFields> words;
-  std::array<double, kNumbers> numbers;
+  std::array<double, kNumbers + kSpacingNumbers> numbers{};
 };
 
 class LineReader {
@@ -63,13 +65,14 @@ bool parse_number(std::string_view text, double& value) {
   return result.ec == std::errc{} && result.ptr == text.data() + text.size() && std::isfinite(value);
 }
 
-Row split(const LineReader& reader) {
+Row split(const LineReader& reader, bool with_spacing) {
+  const std::size_t fields = kTextFields + kNumbers + (with_spacing ? kSpacingNumbers : 0);
   Row row;
   std::string_view rest = reader.text();
-  for (std::size_t field = 0; field < kTextFields + kNumbers; ++field) {
+  for (std::size_t field = 0; field < fields; ++field) {
     const std::size_t comma = rest.find(',');
-    if ((comma == std::string_view::npos) != (field + 1 == kTextFields + kNumbers)) {
-      reader.fail(fmt::format("must have 14 fields: {}", kColumns));
+    if ((comma == std::string_view::npos) != (field + 1 == fields)) {
+      reader.fail(fmt::format("must have {} fields: {}{}", fields, kColumns, with_spacing ? kSpacingColumns : ""));
     }
     const std::string_view value = rest.substr(0, comma);
     if (field < kTextFields) {
@@ -87,8 +90,8 @@ bool is_role(std::string_view role) {
          std::string_view::npos;
 }
 
-TruthEdge parse_edge(const LineReader& reader) {
-  const Row row = split(reader);
+TruthEdge parse_edge(const LineReader& reader, bool with_spacing) {
+  const Row row = split(reader, with_spacing);
   const auto& n = row.numbers;
   TruthEdge edge;
   const auto kind = edge_kind(row.words[0]);
@@ -103,6 +106,9 @@ TruthEdge parse_edge(const LineReader& reader) {
   edge.b = {n[4], n[5], n[6]};
   edge.start = {n[7], n[8], n[9]};
   edge.sweep_deg = n[10];
+  edge.spacing = n[11];
+  edge.spacing_max = n[12];
+  if (edge.spacing < 0.0 || edge.spacing_max < 0.0) reader.fail("the spacing must be at least 0");
   if (edge.shape == TruthEdge::Shape::kArc) {
     if (std::abs(norm(edge.b) - 1.0) > kUnitTolerance) reader.fail("the axis of the arc must have length 1");
     const double radius = norm(edge.start);
@@ -131,13 +137,17 @@ std::string exact_text(double value) {
 void write_truth_csv(std::ostream& out, const Truth& truth) {
   out << kMagic << '\n';
   for (const auto& [key, value] : truth.properties) out << "# " << key << '=' << value << '\n';
-  out << kColumns << '\n';
+  const bool with_spacing = std::any_of(truth.edges.begin(), truth.edges.end(), [](const TruthEdge& edge) {
+    return edge.spacing > 0.0 || edge.spacing_max > 0.0;
+  });
+  out << kColumns << (with_spacing ? kSpacingColumns : "") << '\n';
   for (const TruthEdge& edge : truth.edges) {
     out << name(edge.kind) << ',' << edge.role << ',' << (edge.shape == TruthEdge::Shape::kArc ? "arc" : "segment");
     for (const double value : {edge.angle_deg, edge.a.x, edge.a.y, edge.a.z, edge.b.x, edge.b.y, edge.b.z, edge.start.x,
                                edge.start.y, edge.start.z, edge.sweep_deg}) {
       out << ',' << exact_text(value);
     }
+    if (with_spacing) out << ',' << exact_text(edge.spacing) << ',' << exact_text(edge.spacing_max);
     out << '\n';
   }
 }
@@ -173,7 +183,7 @@ Truth read_truth_csv(std::istream& in, const std::string& label) {
   if (!reader.next() || reader.text() != kMagic) {
     reader.fail(fmt::format("must be \"{}\"; this is not a truth file", kMagic));
   }
-  bool columns_seen = false;
+  bool columns_seen = false, with_spacing = false;
   while (reader.next()) {
     const std::string_view text = reader.text();
     if (text.empty()) continue;
@@ -183,10 +193,11 @@ Truth read_truth_csv(std::istream& in, const std::string& label) {
         truth.properties[std::string(text.substr(2, equals - 2))] = text.substr(equals + 1);
       }
     } else if (!columns_seen) {
-      if (text != kColumns) reader.fail(fmt::format("must name the columns: {}", kColumns));
+      with_spacing = text == std::string(kColumns) + std::string(kSpacingColumns);
+      if (text != kColumns && !with_spacing) reader.fail(fmt::format("must name the columns: {}", kColumns));
       columns_seen = true;
     } else {
-      truth.edges.push_back(parse_edge(reader));
+      truth.edges.push_back(parse_edge(reader, with_spacing));
     }
   }
   if (!columns_seen) reader.fail("the file ends before the line that names the columns; it was cut short");

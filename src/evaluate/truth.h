@@ -9,6 +9,10 @@
 ///     rim_convex,cylinder,arc,90,12,12,18,0,0,1,7,0,0,360
 ///
 /// Segment: ends (x0 y0 z0) and (x1 y1 z1). Arc: centre, unit axis, vector from the centre to the first point, sweep.
+///
+/// Scans whose spacing differs from place to place have two more columns, `spacing` and `spacing_max` (TruthEdge says
+/// what they hold); they are written if any edge has one of them. 0: the file's property "spacing" applies.
+///
 /// Law: reading what was written gives the same doubles, bit for bit.
 
 #include <filesystem>

@@ -24,6 +24,9 @@ struct TruthEdge {
   Vec3 start;  ///< Arc: from the centre to its first point, perpendicular to the axis; its length is the radius.
   double sweep_deg = 0.0;  ///< Arc: counter-clockwise about the axis, (0, 360]; 360 is a full circle.
 
+  double spacing = 0.0;      ///< Of the points beside the edge, sqrt(area per point), >= 0; 0: not known.
+  double spacing_max = 0.0;  ///< In the direction in which they are farther apart, >= 0; 0: not known.
+
   friend bool operator==(const TruthEdge&, const TruthEdge&) = default;
 
   double length() const;

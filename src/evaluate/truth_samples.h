@@ -10,8 +10,8 @@
 
 namespace arris::evaluate {
 
-/// Pieces at most `step` long. Samples of an edge are consecutive and in order. 40 bytes per sample and 30 for the
-/// tree.
+/// Pieces at most `step` long. Samples of an edge are consecutive and in order. 40 bytes per sample and 34 for the
+/// trees.
 class TruthSamples {
  public:
   struct Sample {
@@ -20,16 +20,33 @@ class TruthSamples {
     std::uint32_t edge = 0;
   };
 
-  /// @param step  > 0. Throws ConfigError if that gives more than 2^31 samples.
-  TruthSamples(const std::vector<TruthEdge>& edges, double step);
+  /// @param step  in units of the edge, > 0. @param units  of each edge, data units, > 0. Throws ConfigError if that
+  /// gives more than 2^31 samples.
+  TruthSamples(const std::vector<TruthEdge>& edges, double step, std::vector<double> units);
 
   const std::vector<Sample>& samples() const { return samples_; }
-  const BoxTree& tree() const { return tree_; }
+  double unit_of(const Sample& sample) const { return units_[sample.edge]; }
   double total_length() const { return total_length_; }
 
+  /// Calls visit(i) for a superset of the samples within `limit` of their own units of p.
+  template <class Visit>
+  void search(const Vec3& p, double limit, const Visit& visit) const {
+    for (const Group& group : groups_) {
+      double squared_limit = limit * group.longest_unit * (limit * group.longest_unit);
+      group.tree.search(p, squared_limit, [&](std::uint32_t item) { visit(group.samples[item]); });
+    }
+  }
+
  private:
+  struct Group {
+    std::vector<std::uint32_t> samples;
+    BoxTree tree;
+    double longest_unit = 1.0;
+  };
+
   std::vector<Sample> samples_;
-  BoxTree tree_;
+  std::vector<double> units_;
+  std::vector<Group> groups_;
   double total_length_ = 0.0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 /// @file What the methods say of a point, and how two statements about the same point combine.
 
+#include <array>
 #include <cstdint>
 
 namespace arris {
@@ -14,6 +15,9 @@ struct ContourRecord {
   float gap_deg = 0.0F;         ///< Largest azimuth gap, degrees, of a boundary point; maximum wins.
   float fold_strength = 0.0F;   ///< C_f1 / C'_f1 of the strongest emitting ball (>= 1), 0 if none; maximum wins ...
   float fold_angle_deg = 0.0F;  ///< ... and takes its interior angle with it (ties: the smaller angle).
+  float score = 0.0F;           ///< EdgeScore, [0, 1], if the method gives one per point (arris); maximum wins.
+  /// From the point to the nearest point of the refined contour, data units; goes with the score.
+  std::array<float, 3> to_edge{0.0F, 0.0F, 0.0F};
 
   friend bool operator==(const ContourRecord&, const ContourRecord&) = default;
 };
@@ -23,6 +27,10 @@ inline void combine(ContourRecord& record, const ContourRecord& other) {
   record.classes = static_cast<std::uint8_t>(record.classes | other.classes);
   record.votes += other.votes;
   if (other.gap_deg > record.gap_deg) record.gap_deg = other.gap_deg;
+  if (other.score > record.score) {
+    record.score = other.score;
+    record.to_edge = other.to_edge;
+  }
   if (other.fold_strength > record.fold_strength ||
       (other.fold_strength == record.fold_strength && other.fold_strength > 0.0F &&
        other.fold_angle_deg < record.fold_angle_deg)) {

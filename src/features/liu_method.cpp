@@ -1,20 +1,10 @@
 #include "features/liu_method.h"
 
-#include <algorithm>
-#include <mutex>
-
-#include "core/parallel.h"
 #include "features/liu_engine.h"
 #include "features/liu_runner.h"
+#include "features/query_loop.h"
 
 namespace arris {
-namespace {
-
-/// Buckets per work item: enough to make its scratch memory cheap, few enough to balance the load.
-constexpr std::size_t kChunkBuckets = 64;
-
-}  // namespace
-
 TileContours extract_liu_with(const TilePoints& tile, const Lattice& lattice, const LiuParameters& parameters,
                               const std::vector<std::uint8_t>* wanted, const LiuSwitches& switches) {
   const LiuSettings settings(parameters, lattice, switches);
@@ -23,26 +13,8 @@ TileContours extract_liu_with(const TilePoints& tile, const Lattice& lattice, co
   const PointTree tree(tile.positions, tile.ids);
   ContourAccumulator results(tree.size(), parameters.fold);
   const LiuTask task{tree, tile.covered, settings, results};
-  std::mutex mutex;  // Guards contours.unproven.
-  parallel_for_chunks(tree.buckets(), kChunkBuckets, [&](std::size_t first, std::size_t last) {
-    LiuRunner runner(task);
-    std::vector<std::uint32_t> slots;
-    for (std::size_t bucket = first; bucket < last; ++bucket) {
-      slots.clear();
-      const std::size_t begin = tree.bucket_begin(bucket);
-      const std::size_t end = tree.bucket_begin(bucket + 1);
-      for (std::size_t slot = begin; slot < end; ++slot) {
-        const bool asked = wanted ? (*wanted)[tree.entry(slot)] != 0 : tile.core.contains(tree.position(slot));
-        if (asked) slots.push_back(static_cast<std::uint32_t>(slot));
-      }
-      runner.run(slots);
-    }
-    const std::vector<UnprovenQuery> unproven = runner.take_unproven();
-    const std::lock_guard lock(mutex);
-    contours.unproven.insert(contours.unproven.end(), unproven.begin(), unproven.end());
-  });
-  std::sort(contours.unproven.begin(), contours.unproven.end(),
-            [](const UnprovenQuery& a, const UnprovenQuery& b) { return a.id < b.id; });
+  contours.unproven = run_queries(
+      tree, tile, wanted, [&] { return LiuRunner(task); }, [](LiuRunner&) {});
   ContourAccumulator::Outcome outcome = results.finish(tree, tile);
   contours.records = std::move(outcome.records);
   contours.isolated = outcome.isolated;

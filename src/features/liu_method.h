@@ -3,32 +3,13 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/lattice.h"
 #include "core/tile_points.h"
-#include "features/contour_record.h"
 #include "features/liu_parameters.h"
+#include "features/tile_contours.h"
 
 namespace arris {
-
-/// A query whose support could not be proven to lie inside TilePoints::covered. Running it again on points that cover
-/// the ball of `reach_steps` around `position` is guaranteed to prove it.
-struct UnprovenQuery {
-  std::uint64_t id = 0;
-  LatticePoint position;
-  std::int64_t reach_steps =
-      0;  ///< Chebyshev reach: the box position +- reach must be covered. At most ceil(R_max) + 1.
-};
-
-struct TileContours {
-  /// Records of contour points only; at most one per id, ascending ids. Boundary bits concern queried points; fold
-  /// votes may concern any point in a ball, owned by this tile or not. Duplicates are expanded: every id at a contour
-  /// position has its record.
-  std::vector<ContourRecord> records;
-  std::vector<UnprovenQuery> unproven;  ///< Ascending ids. They left no trace in `records` and `isolated`.
-  std::uint64_t isolated = 0;  ///< Queried points with fewer than k_min neighbours within R_max (duplicates count).
-};
 
 /// Runs the method for every core point of the tile (or, if `queries` is given, for those indices of tile.positions
 /// only). Results of proven queries depend on the input points and the parameters only, not on tile.core, tile.covered,

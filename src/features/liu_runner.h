@@ -5,11 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "features/candidate_set.h"
 #include "features/contour_accumulator.h"
+#include "features/group_search.h"
 #include "features/liu_method.h"
 #include "features/liu_settings.h"
-#include "features/nearest_select.h"
 #include "features/point_tree.h"
 
 namespace arris {
@@ -22,15 +21,7 @@ struct LiuTask {
   ContourAccumulator& results;
 };
 
-/// A fold test to be made.
-struct LiuBall {
-  std::uint32_t slot;
-  FoldThresholds thresholds;
-};
-
-/// Not thread-safe; make one per chunk. Candidates are gathered once for all queries of a group, first for the
-/// neighbours and the boundary test, then for the balls, whose radii are known by then. How far the first gathering
-/// reaches is guessed from the group before; queries that need more are run again. That decides the speed only.
+/// Not thread-safe; make one per chunk.
 class LiuRunner {
  public:
   explicit LiuRunner(const LiuTask& task);
@@ -41,43 +32,21 @@ class LiuRunner {
   std::vector<UnprovenQuery> take_unproven() { return std::move(unproven_); }
 
  private:
+  void use_neighbours(std::uint32_t slot, const Neighbours& neighbours);
+  bool proven(std::uint32_t slot, const Neighbours& neighbours, const FoldThresholds& fold);
+  void test_boundary(std::uint32_t slot, const Neighbours& neighbours, const LocalSpacing& spacing);
   template <class T>
-  struct Arithmetic {
-    CandidateSet<T> candidates;
-    NearestScratch<T> nearest;
-    T guess_d2 = 0;
-  };
-
-  void run_neighbours(std::span<const std::uint32_t> slots, double reach);
-  template <class T>
-  bool try_neighbours(Arithmetic<T>& arithmetic, std::span<const std::uint32_t> slots, double reach);
-  template <class T>
-  bool find_neighbours(Arithmetic<T>& arithmetic, std::uint32_t slot, double reach);
-  void use_neighbours(std::uint32_t slot);
-  bool proven(std::uint32_t slot, const FoldThresholds& fold);
-  void test_boundary(std::uint32_t slot, const LocalSpacing& spacing);
-
-  void run_balls(std::span<const LiuBall> balls);
-  template <class T>
-  bool try_balls(Arithmetic<T>& arithmetic, std::span<const LiuBall> balls);
-  template <class T>
-  void test_fold(const CandidateSet<T>& candidates, const LiuBall& ball);
-
-  double first_reach(std::span<const std::uint32_t> slots) const;
+  void test_fold(const CandidateSet<T>& candidates, const BallQuery<T>& query, const Ball& ball);
 
   LiuTask task_;
-  Arithmetic<float> floats_;
-  Arithmetic<double> doubles_;
-  Arithmetic<std::int64_t> integers_;
-  Neighbours neighbours_;
+  NeighbourSearch neighbour_search_;
+  BallSearch ball_search_;
   std::vector<AzimuthGapTest::Entry> azimuths_;
   FoldScratch fold_;
   FoldEmission emission_;
-  std::vector<std::uint32_t> pending_;  ///< Queries that the current reach did not do for.
-  std::vector<LiuBall> balls_;          ///< Balls of the current group.
+  std::vector<Ball> balls_;                 ///< Balls of the current group ...
+  std::vector<FoldThresholds> thresholds_;  ///< ... and what to test them for.
   std::vector<UnprovenQuery> unproven_;
-  double reach_sum_ = 0.0;  ///< Of the distances of last neighbours in the current group.
-  std::size_t measured_ = 0;
 };
 
 }  // namespace arris

@@ -7,6 +7,7 @@
 #include "features/azimuth_gap.h"
 #include "features/entropy_scale.h"
 #include "features/fold_test.h"
+#include "features/group_search.h"
 #include "features/liu_parameters.h"
 #include "features/local_spacing.h"
 
@@ -15,7 +16,7 @@ namespace arris {
 /// Switches that must not change any result; tests use them to show that.
 struct LiuSwitches {
   bool early_rejection = true;
-  enum class Arithmetic : std::uint8_t { kFloat, kDouble, kInt64 } narrowest = Arithmetic::kFloat;
+  Arithmetic narrowest = Arithmetic::kFloat;
 };
 
 struct LiuSettings {
@@ -30,6 +31,9 @@ struct LiuSettings {
   ScaleRange scale;
   AzimuthGapTest gap_test;
 
+  SearchLimits limits() const {
+    return {static_cast<std::size_t>(parameters.k_max), max_reach, max_d2, switches.narrowest};
+  }
   /// Spacings to use at a point: the estimate, or the one the user gave.
   LocalSpacing spacing(const Neighbours& neighbours) const;
   double far_distance(const LocalSpacing& spacing) const;             ///< d_thr, steps.

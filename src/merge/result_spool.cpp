@@ -23,9 +23,11 @@ struct DiskRecord {
   float fold_strength;
   float fold_angle_deg;
   std::uint32_t classes;
+  float score;
+  float to_edge[3];
   std::uint32_t reserved;
 };
-static_assert(sizeof(DiskRecord) == 32);
+static_assert(sizeof(DiskRecord) == 48);
 
 std::uint64_t checksum(std::span<const DiskRecord> records) {
   std::uint64_t sum = 0;
@@ -52,7 +54,15 @@ void ResultSpool::append(std::vector<ContourRecord> records) {
     run.clear();
     for (; end < records.size() && records[end].id / kBucketPoints == bucket; ++end) {
       const ContourRecord& r = records[end];
-      run.push_back({r.id, r.votes, r.gap_deg, r.fold_strength, r.fold_angle_deg, r.classes, 0});
+      run.push_back({r.id,
+                     r.votes,
+                     r.gap_deg,
+                     r.fold_strength,
+                     r.fold_angle_deg,
+                     r.classes,
+                     r.score,
+                     {r.to_edge[0], r.to_edge[1], r.to_edge[2]},
+                     0});
     }
     const std::uint64_t sum = checksum(run);
     {
@@ -85,10 +95,17 @@ void ResultSpool::load(std::size_t bucket, std::vector<PointResult>& results) {
     for (const DiskRecord& r : read) {
       if (r.id < first_id || r.id - first_id >= results.size()) continue;  // Damage: the checksum below will not match.
       PointResult& to = results[r.id - first_id];
-      ContourRecord combined{r.id, to.classes, to.votes, to.gap_deg, to.fold_strength, to.fold_angle_deg};
-      combine(combined,
-              {r.id, static_cast<std::uint8_t>(r.classes), r.votes, r.gap_deg, r.fold_strength, r.fold_angle_deg});
-      to = {combined.gap_deg, combined.fold_strength, combined.fold_angle_deg, combined.votes, combined.classes};
+      ContourRecord combined = to.record(r.id);
+      combine(combined, {r.id,
+                         static_cast<std::uint8_t>(r.classes),
+                         r.votes,
+                         r.gap_deg,
+                         r.fold_strength,
+                         r.fold_angle_deg,
+                         r.score,
+                         {r.to_edge[0], r.to_edge[1], r.to_edge[2]}});
+      to = {combined.gap_deg, combined.fold_strength, combined.fold_angle_deg, combined.votes,
+            combined.classes, combined.score,         combined.to_edge};
     }
     if (bytes < block.size() * sizeof(DiskRecord)) break;
   }

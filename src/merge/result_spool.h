@@ -1,6 +1,7 @@
 #pragma once
 /// @file Collects the partial results of all tiles and hands them back in the order of ids, combined.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
@@ -18,14 +19,20 @@ struct PointResult {
   float fold_angle_deg = 0.0F;
   std::uint32_t votes = 0;
   std::uint8_t classes = 0;
+  float score = 0.0F;
+  std::array<float, 3> to_edge{0.0F, 0.0F, 0.0F};
+
+  ContourRecord record(std::uint64_t id) const {
+    return {id, classes, votes, gap_deg, fold_strength, fold_angle_deg, score, to_edge};
+  }
 };
 
 /// Records are appended to one file per range of ids (a bucket). A bucket is read back as a dense array into which its
 /// records are combined; combining is commutative, so nothing depends on the order in which tiles finish. Memory: one
-/// bucket at a time, kBucketPoints * sizeof(PointResult) = 20 MiB. Temporary disk: 32 bytes per record.
+/// bucket at a time, kBucketPoints * sizeof(PointResult) = 18 MiB. Temporary disk: 48 bytes per record.
 class ResultSpool {
  public:
-  static constexpr std::uint64_t kBucketPoints = 1U << 20;
+  static constexpr std::uint64_t kBucketPoints = 1U << 19;
 
   /// @param points  ids are in [0, points).
   ResultSpool(std::filesystem::path folder, std::uint64_t points);

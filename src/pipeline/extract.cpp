@@ -153,7 +153,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
   output_options.mixed_crs = request.mixed_crs;
   std::vector<std::unique_ptr<io::KeptPointWriter>> writers;
   for (const std::filesystem::path& output : request.outputs) {
-    writers.push_back(io::create_kept_point_writer(output, inputs, contour_columns(), output_options));
+    writers.push_back(io::create_kept_point_writer(output, inputs, contour_columns(request.refined), output_options));
     report.outputs.push_back(output.string());
   }
 
@@ -166,7 +166,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
 
   const RunFolder folder(request.temp_dir);
   merge::ResultSpool results(folder.path(), inputs.points());
-  const bool any_test = plan.liu.boundary || plan.liu.fold;  // Without, all points are no contour.
+  const bool any_test = plan.method.any_test();  // Without, all points are no contour.
   if (any_test) {
     // While tiles run side by side, each has one thread; a lone tile uses them all inside.
     const ThreadLimit limit(request.threads - plan.memory.tile_workers + 1);
@@ -182,7 +182,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     for (std::size_t tile = 0; tile < plan.tiles.tiles.size(); ++tile) store.remove(tile);
     release_free_memory();
   }
-  gather_points(inputs, request, plan.liu, results, writers, report, sink, cancel);
+  gather_points(inputs, request, plan.method, results, writers, report, sink, cancel);
   inputs.check_unchanged();
   for (const auto& writer : writers) {
     writer->commit();

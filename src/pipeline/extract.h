@@ -8,7 +8,7 @@
 
 #include "core/cancel.h"
 #include "core/progress.h"
-#include "features/liu_parameters.h"
+#include "features/contour_method.h"
 #include "io/point_source.h"
 #include "pipeline/extract_report.h"
 
@@ -19,7 +19,7 @@ struct ExtractRequest {
   io::Tolerance tolerance = io::Tolerance::kUsual;
   io::PointExclusion exclusion;  ///< Points that take no part; with keep_all they are written all the same.
   std::vector<std::filesystem::path> outputs;  ///< The extension picks the format; at least one.
-  LiuParameters liu;                           ///< max_radius 0: resolved from the survey.
+  ContourParameters method;                    ///< max_radius 0: resolved from the survey.
   std::uint64_t memory_bytes = 0;              ///< Bound on the resident memory of the whole process, > 0.
   int threads = 1;                             ///< >= 1.
   std::filesystem::path temp_dir;              ///< Existing folder for temporary files.
@@ -29,6 +29,7 @@ struct ExtractRequest {
   bool overwrite = false;
   bool mixed_crs = false;    ///< Take inputs with different coordinate reference systems for one.
   bool keep_all = false;     ///< Write every point, not only contour points.
+  bool refined = false;      ///< Add the columns EdgeX, EdgeY, EdgeZ (method arris).
   bool hash_inputs = false;  ///< Put content hashes into the report (reads the inputs once more).
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json parameters_json(const LiuParameters& p) {
+Json liu_json(const LiuParameters& p) {
   return {{"k_min", p.k_min},
           {"k_max", p.k_max},
           {"k_step", p.k_step},
@@ -36,6 +36,20 @@ Json parameters_json(const LiuParameters& p) {
           {"fold", p.fold}};
 }
 
+Json arris_json(const ArrisParameters& p) {
+  Json view = "none";
+  if (p.view == ArrisParameters::View::kAbove) view = "above";
+  if (p.view == ArrisParameters::View::kPoint) view = p.viewpoint;
+  return {{"spacing", p.spacing},     {"max_radius", p.max_radius},
+          {"min_score", p.min_score}, {"boundary", p.boundary},
+          {"fold", p.fold},           {"thin", p.thin},
+          {"viewpoint", view}};
+}
+
+Json parameters_json(const ContourParameters& p) {
+  return p.method == ContourParameters::Method::kArris ? arris_json(p.arris) : liu_json(p.liu);
+}
+
 }  // namespace
 
 Json to_json(const ExtractReport& r) {
@@ -43,7 +57,7 @@ Json to_json(const ExtractReport& r) {
   json["schema"] = "arris-extract-report/1";
   json["arris"] = kVersion;
   json["libraries"] = pipeline::library_versions();
-  json["method"] = r.method;
+  json["method"] = r.parameters.name();
   json["parameters"] = parameters_json(r.parameters);
   json["lattice"] = {{"step", r.lattice.step}, {"origin", r.lattice.origin}};
   json["spacing"] = r.spacing;

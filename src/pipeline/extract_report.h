@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/lattice.h"
-#include "features/liu_parameters.h"
+#include "features/contour_method.h"
 
 namespace arris::pipeline {
 
@@ -26,8 +26,7 @@ struct WarningReport {
 };
 
 struct ExtractReport {
-  std::string method = "liu";
-  LiuParameters parameters;  ///< As used: everything resolved.
+  ContourParameters parameters;  ///< As used: everything resolved.
   Lattice lattice;
   LatticeBox bounds;
   double spacing = 0.0;

@@ -3,29 +3,42 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "features/liu_method.h"
+#include "features/contour_method.h"
 
 namespace arris::pipeline {
 namespace {
 
-/// One row of contour_columns(), packed.
-void append_row(std::vector<std::byte>& rows, std::uint8_t edge_class, float score, float fold_angle_deg) {
+template <class T>
+void append(std::vector<std::byte>& rows, const T& value) {
   const std::size_t at = rows.size();
-  rows.resize(at + 9);
-  std::memcpy(&rows[at], &edge_class, 1);
-  std::memcpy(&rows[at + 1], &score, 4);
-  std::memcpy(&rows[at + 5], &fold_angle_deg, 4);
+  rows.resize(at + sizeof value);
+  std::memcpy(&rows[at], &value, sizeof value);
+}
+
+/// One row of contour_columns(), packed.
+void append_row(std::vector<std::byte>& rows, const ContourRecord& record, bool refined) {
+  append(rows, record.classes);
+  append(rows, record.score);
+  append(rows, record.fold_angle_deg);
+  if (!refined) return;
+  for (const float offset : record.to_edge) append(rows, offset);
 }
 
 }  // namespace
 
-std::vector<ColumnSpec> contour_columns() {
-  return {{"EdgeClass", ColumnType::kUint8, "1 boundary 2 weak 4 fold"},
-          {"EdgeScore", ColumnType::kFloat32, "0..1"},
-          {"FoldAngle", ColumnType::kFloat32, "interior angle, degrees"}};
+std::vector<ColumnSpec> contour_columns(bool refined) {
+  std::vector<ColumnSpec> columns{{"EdgeClass", ColumnType::kUint8, "1 boundary 2 weak 4 fold 16/32"},
+                                  {"EdgeScore", ColumnType::kFloat32, "0..1"},
+                                  {"FoldAngle", ColumnType::kFloat32, "interior angle, degrees"}};
+  if (refined) {
+    columns.push_back({"EdgeX", ColumnType::kFloat32, "from point to refined edge"});
+    columns.push_back({"EdgeY", ColumnType::kFloat32, "from point to refined edge"});
+    columns.push_back({"EdgeZ", ColumnType::kFloat32, "from point to refined edge"});
+  }
+  return columns;
 }
 
-void gather_points(io::InputSet& inputs, const ExtractRequest& request, const LiuParameters& liu,
+void gather_points(io::InputSet& inputs, const ExtractRequest& request, const ContourParameters& method,
                    merge::ResultSpool& results, std::vector<std::unique_ptr<io::KeptPointWriter>>& writers,
                    ExtractReport& report, ProgressSink& progress, const CancelToken& cancel) {
   progress.phase("write", inputs.points());
@@ -50,20 +63,15 @@ void gather_points(io::InputSet& inputs, const ExtractRequest& request, const Li
         results.load(wanted, bucket);
         bucket_index = wanted;
       }
-      const merge::PointResult& r = bucket[id % merge::ResultSpool::kBucketPoints];
-      ContourRecord record{id, r.classes, r.votes, r.gap_deg, r.fold_strength, r.fold_angle_deg};
-      if (record.votes < static_cast<std::uint32_t>(liu.min_votes)) {
-        record.classes = static_cast<std::uint8_t>(record.classes & ~kFold);
-        record.votes = 0;
-        record.fold_angle_deg = 0.0F;
-      }
+      ContourRecord record = bucket[id % merge::ResultSpool::kBucketPoints].record(id);
+      finish_record(record, method);
       if (record.classes == 0 && !request.keep_all) continue;
       report.boundary += (record.classes & kBoundary) != 0;
       report.weak_boundary += (record.classes & kWeakBoundary) != 0;
       report.fold += (record.classes & kFold) != 0;
       report.not_contour += record.classes == 0;
       kept.push_back(static_cast<std::uint32_t>(i));
-      append_row(rows, record.classes, record.classes ? liu_score(record, liu) : 0.0F, record.fold_angle_deg);
+      append_row(rows, record, request.refined);
     }
     for (const auto& writer : writers) writer->append(inputs.source_index(), batch, kept, rows);
     report.points_out += kept.size();

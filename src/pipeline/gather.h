@@ -13,12 +13,13 @@
 
 namespace arris::pipeline {
 
-/// EdgeClass, EdgeScore, FoldAngle.
-std::vector<ColumnSpec> contour_columns();
+/// EdgeClass, EdgeScore, FoldAngle; refined: also EdgeX, EdgeY, EdgeZ, the way from the point to the nearest point of
+/// the refined edge, data units.
+std::vector<ColumnSpec> contour_columns(bool refined);
 
 /// Streams inputs and results side by side in the order of ids and appends to every writer; counts into `report`. Does
 /// not commit.
-void gather_points(io::InputSet& inputs, const ExtractRequest& request, const LiuParameters& liu,
+void gather_points(io::InputSet& inputs, const ExtractRequest& request, const ContourParameters& method,
                    merge::ResultSpool& results, std::vector<std::unique_ptr<io::KeptPointWriter>>& writers,
                    ExtractReport& report, ProgressSink& progress, const CancelToken& cancel);
 

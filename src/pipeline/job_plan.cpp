@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "features/liu_method.h"
+#include "features/contour_method.h"
 #include "pipeline/run_folder.h"
 
 namespace arris::pipeline {
@@ -22,11 +22,11 @@ constexpr double kResultBytesPerPoint = 8.0;
 /// Squares of coordinates within the search radius stay exact.
 constexpr double kMostRadiusSteps = 1 << 29;
 
-double resolve_max_radius(const LiuParameters& liu, const tiling::Survey& survey) {
-  if (liu.max_radius > 0.0) return liu.max_radius;
-  const double spacing = liu.spacing > 0.0 ? liu.spacing : survey.spacing;
+double resolve_max_radius(const ContourParameters& method, const tiling::Survey& survey) {
+  if (method.max_radius() > 0.0) return method.max_radius();
+  const double spacing = method.spacing() > 0.0 ? method.spacing() : survey.spacing;
   const double most = kMostRadiusSteps * survey.lattice.step;
-  return std::min(most, std::max({kMaxRadiusSpacings * spacing, liu.radius, 4.0 * survey.lattice.step}));
+  return std::min(most, std::max({kMaxRadiusSpacings * spacing, method.fixed_radius(), 4.0 * survey.lattice.step}));
 }
 
 void check_temp_space(const JobPlan& plan, const ExtractRequest& request, ProgressSink& progress) {
@@ -53,15 +53,15 @@ JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSi
   JobPlan plan;
   plan.memory = plan_memory({request.memory_bytes, request.threads});
   plan.survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
-  plan.liu = request.liu;
-  plan.liu.max_radius = resolve_max_radius(request.liu, plan.survey);
-  validate(plan.liu);
+  plan.method = request.method;
+  plan.method.set_max_radius(resolve_max_radius(request.method, plan.survey));
+  validate(plan.method);
 
   tiling::PlanRequest tiles;
   tiles.max_points = plan.memory.max_tile_points;
   tiles.max_core_points = request.tile_points_cap;
-  tiles.halo = [&](double spacing) { return liu_halo(plan.liu, spacing); };
-  tiles.max_radius = plan.liu.max_radius;
+  tiles.halo = [&](double spacing) { return contour_halo(plan.method, spacing); };
+  tiles.max_radius = plan.method.max_radius();
   plan.tiles = tiling::plan_tiles(plan.survey, tiles);
 
   // Few tiles leave threads idle: then one tile at a time uses all of them inside.
@@ -87,7 +87,7 @@ JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSi
 
 void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const ExtractRequest& request,
                    ExtractReport& report) {
-  report.parameters = plan.liu;
+  report.parameters = plan.method;
   report.lattice = plan.survey.lattice;
   report.bounds = plan.survey.bounds;
   report.spacing = plan.survey.spacing;

@@ -11,7 +11,7 @@ namespace arris::pipeline {
 
 struct JobPlan {
   tiling::Survey survey;
-  LiuParameters liu;  ///< Resolved.
+  ContourParameters method;  ///< Resolved.
   MemoryPlan memory;
   tiling::TilePlan tiles;
   std::uint64_t predicted_peak_bytes = 0;

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/process_memory.h"
 #include "core/text.h"
-#include "features/liu_method.h"
+#include "features/contour_method.h"
 #include "tiling/tile_store.h"
 
 namespace arris::pipeline {
@@ -25,7 +25,7 @@ constexpr double kSafety = 0.92;
 
 std::uint64_t fixed_bytes(int threads, std::uint64_t spool_buffer_bytes) {
   return resident_bytes() + kPassBytes + spool_buffer_bytes +
-         static_cast<std::uint64_t>(threads) * static_cast<std::uint64_t>(kLiuBytesPerThread);
+         static_cast<std::uint64_t>(threads) * static_cast<std::uint64_t>(kContourBytesPerThread);
 }
 
 std::uint64_t spool_buffer_bytes(std::uint64_t budget_bytes) {
@@ -36,7 +36,7 @@ std::uint64_t spool_buffer_bytes(std::uint64_t budget_bytes) {
 
 std::uint64_t tile_bytes(std::uint64_t points) {
   const auto analyse =
-      tiling::load_bytes(points) + static_cast<std::uint64_t>(kLiuBytesPerPoint * static_cast<double>(points));
+      tiling::load_bytes(points) + static_cast<std::uint64_t>(kContourBytesPerPoint * static_cast<double>(points));
   return std::max(tiling::build_bytes(points), analyse);
 }
 

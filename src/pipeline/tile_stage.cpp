@@ -68,7 +68,7 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const JobPlan& plan, const 
     {
       TilePoints points = store.load(tile);
       points.covered = points.covered.unlimited_beyond(plan.survey.bounds);
-      contours = extract_liu(points, plan.survey.lattice, plan.liu);
+      contours = extract_contours(points, plan.survey.lattice, plan.method);
     }
     if (!contours.unproven.empty()) {
       write_queries(folder / fmt::format("{}.queries", tile), contours.unproven);

@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "core/process_memory.h"
 #include "core/text.h"
-#include "features/liu_method.h"
+#include "features/contour_method.h"
 #include "pipeline/tile_stage.h"
 #include "tiling/query_regions.h"
 
@@ -48,7 +48,7 @@ class Widener {
     }
     std::vector<std::uint32_t> indices;
     for (const UnprovenQuery& query : queries) indices.push_back(index_of.at(query.id));
-    TileContours contours = extract_liu(*points, plan_.survey.lattice, plan_.liu, indices);
+    TileContours contours = extract_contours(*points, plan_.survey.lattice, plan_.method, indices);
     if (!contours.unproven.empty())
       throw IoError("internal: a query stayed unproven on complete support; please report this");
     outcome_.isolated += contours.isolated;

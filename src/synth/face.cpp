@@ -4,6 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include "synth/deterministic_math.h"
+
 namespace arris::synth {
 
 namespace {
@@ -45,11 +47,29 @@ std::vector<Point2> corners(const Rect2& r) {
   return {r.min, {r.max.u, r.min.v}, r.max, {r.min.u, r.max.v}};
 }
 
+/// Distance within the plane, from the centre's frame, to an arc of the face's sweep.
+double arc_distance(const Face& face, double radius, double u, double v) {
+  if (face.in_sweep(u, v)) return std::abs(std::hypot(u, v) - radius);
+  return std::min(std::hypot(u - radius, v), std::hypot(u - radius * face.sweep_end.u, v - radius * face.sweep_end.v));
+}
+
+/// The same to the border of a disc, ring or sector.
+double disc_border_distance(const Face& face, double u, double v) {
+  double best = arc_distance(face, face.radius, u, v);
+  if (face.inner_radius > 0.0) best = std::min(best, arc_distance(face, face.inner_radius, u, v));
+  if (face.sweep_turns >= 1.0) return best;
+  for (const Point2& side : {Point2{1.0, 0.0}, face.sweep_end}) {
+    const double r = face.inner_radius, f = face.radius;
+    best = std::min(best, segment_distance({r * side.u, r * side.v}, {f * side.u, f * side.v}, u, v));
+  }
+  return best;
+}
+
 /// Distance within the plane from a (u, v) that is not owned to the face.
 double border_distance(const Face& face, double u, double v) {
   double best =
       face.disc
-          ? std::abs(std::hypot(u - face.radius, v - face.radius) - face.radius)
+          ? disc_border_distance(face, u - face.radius, v - face.radius)
           : polygon_distance(face.outline.empty() ? corners({{0, 0}, {face.size_u, face.size_v}}) : face.outline, u, v);
   for (const Circle2& hole : face.circle_holes) {
     best = std::min(best, std::abs(std::hypot(u - hole.centre.u, v - hole.centre.v) - hole.radius));
@@ -60,11 +80,24 @@ double border_distance(const Face& face, double u, double v) {
 
 }  // namespace
 
+void Face::set_sweep(double turns) {
+  const SinCos end = sin_cos_turns(turns);
+  sweep_turns = turns;
+  sweep_end = {end.cos, end.sin};
+}
+
+bool Face::in_sweep(double u, double v) const {
+  if (sweep_turns >= 1.0) return true;
+  const bool after_start = v >= 0.0, before_end = u * sweep_end.v - v * sweep_end.u >= 0.0;
+  return sweep_turns <= 0.5 ? after_start && before_end : after_start || before_end;
+}
+
 bool Face::owns(double u, double v) const {
   if (u < 0.0 || v < 0.0 || u >= size_u || v >= size_v) return false;
   if (disc) {
     const double du = u - radius, dv = v - radius;
-    if (du * du + dv * dv >= radius * radius) return false;
+    const double squared = du * du + dv * dv;
+    if (squared >= radius * radius || squared < inner_radius * inner_radius || !in_sweep(du, dv)) return false;
   } else if (!outline.empty() && !in_polygon(outline, u, v)) {
     return false;
   }
@@ -82,15 +115,17 @@ double Face::measure() const {
   constexpr double kPi = std::numbers::pi;
   switch (shape) {
     case Shape::kCylinder:
-      return 2.0 * kPi * radius * size_v;
+      return 2.0 * kPi * radius * size_v * sweep_turns;
     case Shape::kSphere:
-      return 4.0 * kPi * radius * radius;
+      return 2.0 * kPi * radius * (radius - std::max(cap_height, -radius));
     case Shape::kVolume:
       return size_u * size_v * size_w;
     case Shape::kPlane:
       break;
   }
-  double area = disc ? kPi * radius * radius : outline.empty() ? size_u * size_v : polygon_area(outline);
+  double area = disc              ? kPi * (radius * radius - inner_radius * inner_radius) * sweep_turns
+                : outline.empty() ? size_u * size_v
+                                  : polygon_area(outline);
   for (const Circle2& hole : circle_holes) area -= kPi * hole.radius * hole.radius;
   for (const Rect2& hole : rect_holes) area -= (hole.max.u - hole.min.u) * (hole.max.v - hole.min.v);
   return area;
@@ -101,11 +136,12 @@ double Face::distance(const Vec3& point) const {
   const double u = dot(local, eu), v = dot(local, ev), w = dot(local, ew);
   switch (shape) {
     case Shape::kSphere:
-      return std::abs(norm(local) - radius);
+      if (w >= cap_height) return std::abs(norm(local) - radius);
+      return std::hypot(std::hypot(u, v) - std::sqrt(radius * radius - cap_height * cap_height), w - cap_height);
     case Shape::kVolume:
       return std::sqrt(Box3{{0, 0, 0}, {size_u, size_v, size_w}}.squared_distance({u, v, w}));
     case Shape::kCylinder:
-      return std::hypot(std::hypot(u, v) - radius, std::max({-w, 0.0, w - size_v}));
+      return std::hypot(arc_distance(*this, radius, u, v), std::max({-w, 0.0, w - size_v}));
     case Shape::kPlane:
       break;
   }

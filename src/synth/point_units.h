@@ -25,6 +25,6 @@ class PointUnits {
 };
 
 /// How points are laid on faces; header of scene.h describes each.
-enum class Sampling : std::uint8_t { kGrid, kJittered, kRandom, kGradient, kScan };
+enum class Sampling : std::uint8_t { kGrid, kJittered, kRandom, kGradient, kScan, kPoisson };
 
 }  // namespace arris::synth

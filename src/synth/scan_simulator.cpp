@@ -62,6 +62,12 @@ double ScanSimulator::expected_points() const {
   return hit_share_sum_ * static_cast<double>(columns_) * static_cast<double>(elevations_.size());
 }
 
+ScanGrid ScanSimulator::grid() const {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  return {kTurn / static_cast<double>(columns_), kTurn * kElevationTurns / static_cast<double>(elevations_.size()),
+          sin_cos_turns(kLowestTurns).sin, sin_cos_turns(kHighestTurns).sin, kMaxRange};
+}
+
 double ScanSimulator::hit_share(const Station& station) const {
   RayCaster::Column column;
   std::uint64_t hits = 0;

@@ -7,6 +7,7 @@
 
 #include "synth/point_units.h"
 #include "synth/ray_caster.h"
+#include "synth/scan_grid.h"
 
 namespace arris::synth {
 
@@ -33,6 +34,7 @@ class ScanSimulator final : public PointUnits {
   void make(std::uint64_t begin, std::uint64_t end, std::vector<io::FreshPoint>& out) const override;
 
   double spacing() const { return spacing_; }
+  ScanGrid grid() const;
 
  private:
   struct Station {

@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "synth/placement.h"
 #include "synth/scan_simulator.h"
+#include "synth/scan_truth.h"
 #include "synth/surface_sampler.h"
 
 namespace arris::synth {
@@ -24,7 +25,8 @@ Sampling parse_sampling(const std::string& name) {
   const auto& names = list_samplings();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    throw ConfigError("unknown sampling \"" + printable(name) + "\"; use grid, jittered, random, gradient or scan");
+    throw ConfigError("unknown sampling \"" + printable(name) +
+                      "\"; use grid, jittered, random, gradient, scan or poisson");
   }
   return static_cast<Sampling>(found - names.begin());
 }
@@ -44,7 +46,7 @@ void validate(const SceneRequest& request) {
 }  // namespace
 
 const std::vector<std::string>& list_samplings() {
-  static const std::vector<std::string> names{"grid", "jittered", "random", "gradient", "scan"};
+  static const std::vector<std::string> names{"grid", "jittered", "random", "gradient", "scan", "poisson"};
   return names;
 }
 
@@ -67,7 +69,7 @@ struct Scene::Impl {
   void prepare_surface(Sampling sampling) {
     if (request.points > 0) {
       spacing = SurfaceSampler::spacing_for(model, sampling, request.points);
-      model = info.build(options, spacing);  // Some lengths are given in spacings; no area depends on them.
+      model = info.build(options, spacing);  // Some lengths are given in spacings; areas hardly depend on them.
     }
     units = std::make_unique<SurfaceSampler>(
         model, SurfaceSampling{sampling, spacing, request.noise, request.outliers, request.seed});
@@ -82,9 +84,10 @@ struct Scene::Impl {
     settings.mixed_pixels = options.at("mixed_pixels");
     settings.registration = options.at("registration");
     settings.seed = request.seed;
-    auto scan = std::make_unique<ScanSimulator>(model, settings);
-    spacing = scan->spacing();
-    units = std::move(scan);
+    auto scanner = std::make_unique<ScanSimulator>(model, settings);
+    spacing = scanner->spacing();
+    scan = scanner.get();
+    units = std::move(scanner);
   }
 
   SceneRequest request;
@@ -96,6 +99,7 @@ struct Scene::Impl {
   std::vector<TruthEdge> edges;
   evaluate::BoxTree face_tree;
   std::unique_ptr<PointUnits> units;
+  const ScanSimulator* scan = nullptr;  ///< The units, if the scene is scanned.
 };
 
 Scene::Scene(const SceneRequest& request) : impl_(std::make_unique<Impl>(request)) {}
@@ -116,7 +120,11 @@ const std::vector<evaluate::TruthEdge>& Scene::edges() const {
   return impl_->edges;
 }
 
-evaluate::Truth Scene::truth() const {
+bool Scene::scanned() const {
+  return impl_->scan != nullptr;
+}
+
+evaluate::Truth Scene::truth(TruthOf of) const {
   using evaluate::exact_text;
   const SceneRequest& request = impl_->request;
   evaluate::Truth truth;
@@ -131,7 +139,13 @@ evaluate::Truth Scene::truth() const {
                       {"shift", exact_text(request.shift[0]) + " " + exact_text(request.shift[1]) + " " +
                                     exact_text(request.shift[2])}};
   for (const auto& [name, value] : impl_->options) truth.properties["option_" + name] = exact_text(value);
-  truth.edges = impl_->edges;
+  if (scanned()) truth.properties["truth_of"] = of == TruthOf::kScan ? "scan" : "model";
+  if (!scanned() || of == TruthOf::kModel) {
+    truth.edges = impl_->edges;
+    return truth;
+  }
+  truth.edges = scan_truth(impl_->model, impl_->scan->grid());
+  for (TruthEdge& edge : truth.edges) edge = impl_->placement.apply(edge);
   return truth;
 }
 

@@ -26,6 +26,10 @@
 
 namespace arris::synth {
 
+/// kModel: all edges of the model, seen or not. kScan: what the points show (header of scan_truth.h states the rules):
+/// seen parts of the model's edges, and borders of what the stations see, each with its local spacing.
+enum class TruthOf : std::uint8_t { kModel, kScan };
+
 struct SceneRequest {
   std::string scene;  ///< A name from list_scenes().
   /// Data units, metres by default scenes; 0: the scene's default. Surface scenes: one point per spacing² of face (per
@@ -37,8 +41,9 @@ struct SceneRequest {
   /// "grid": the middle of every cell, so half a spacing from the face's sides; "jittered" (default): moved by up to
   /// 0.3 cells per axis, uniformly; "random": a Poisson process of one point per cell on average; "gradient": the same,
   /// thinned along x so that the local spacing grows linearly to sqrt(10) of `spacing` (density 10:1); "scan": lines 2
-  /// spacings apart with a point every 1/2 spacing, each line with its own phase. Cells are cut anew on every face: no
-  /// shared edge is sampled twice.
+  /// spacings apart with a point every 1/2 spacing, each line with its own phase; "poisson": Poisson discs, no two
+  /// points of a face nearer than 0.72 spacings (before noise; volumes: as "random"). Cells are cut anew on every face:
+  /// no shared edge is sampled twice.
   std::string sampling = "jittered";
   std::uint64_t seed = 1;
   /// Share of points, [0, 1), that are put anywhere in the scene's box grown by 10 % (class 7); scanned scenes: at a
@@ -78,10 +83,13 @@ class Scene {
   double spacing() const;  ///< The one given, chosen or default.
   double expected_points()
       const;  ///< The stream delivers as many within a few percent (random samplings: sqrt of it more).
-  const std::vector<evaluate::TruthEdge>& edges() const;  ///< Rotated and shifted.
+  const std::vector<evaluate::TruthEdge>& edges() const;  ///< Of the model, rotated and shifted.
+  /// True if the scene is scanned from stations.
+  bool scanned() const;
   /// Edges and the properties scene, spacing, noise, sampling, seed, outliers, expected_points, shift, rotate and the
-  /// options.
-  evaluate::Truth truth() const;
+  /// options; scanned scenes also truth_of. @param of  kScan is the same as kModel unless the scene is scanned; then it
+  /// takes seconds for a town.
+  evaluate::Truth truth(TruthOf of = TruthOf::kScan) const;
   /// Box of the faces, rotated and shifted, noise and outliers not counted: for the choice of a file's offset.
   std::array<std::array<double, 3>, 2> bounds() const;
   /// Exact distance of a point (rotated and shifted) to the nearest face; O(log faces).
@@ -96,7 +104,7 @@ class Scene {
   std::unique_ptr<Impl> impl_;
 };
 
-/// "grid", "jittered", "random", "gradient", "scan".
+/// "grid", "jittered", "random", "gradient", "scan", "poisson".
 const std::vector<std::string>& list_samplings();
 
 }  // namespace arris::synth

@@ -14,6 +14,17 @@ SceneModel build_sphere(const OptionValues& options, double spacing);
 SceneModel build_noise(const OptionValues& options, double spacing);
 SceneModel build_gable(const OptionValues& options, double spacing);
 SceneModel build_hip(const OptionValues& options, double spacing);
+SceneModel build_crossgable(const OptionValues& options, double spacing);
+SceneModel build_mansard(const OptionValues& options, double spacing);
+SceneModel build_dormer(const OptionValues& options, double spacing);
+SceneModel build_dome(const OptionValues& options, double spacing);
+SceneModel build_parapet(const OptionValues& options, double spacing);
+SceneModel build_columns(const OptionValues& options, double spacing);
+SceneModel build_facade(const OptionValues& options, double spacing);
+SceneModel build_sculpture(const OptionValues& options, double spacing);
+SceneModel build_roundedge(const OptionValues& options, double spacing);
+SceneModel build_corners(const OptionValues& options, double spacing);
+SceneModel build_spray(const OptionValues& options, double spacing);
 SceneModel build_town(const OptionValues& options, double spacing);
 
 }  // namespace arris::synth

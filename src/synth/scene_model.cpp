@@ -76,6 +76,27 @@ Face& SceneModel::cylinder(const Vec3& base, const Vec3& axis, double height, do
   return face;
 }
 
+Face& SceneModel::cylinder_part(const Vec3& base, const Vec3& axis, const Vec3& start, double turns,
+                                const Material& material) {
+  Face& face = cylinder(base, axis, norm(axis), norm(start), material);
+  face.eu = normalized(start);
+  face.ev = cross(face.ew, face.eu);
+  face.size_u *= turns;
+  face.set_sweep(turns);
+  return face;
+}
+
+Face& SceneModel::ring_part(const Vec3& centre, const Vec3& normal, const Vec3& start, double inner_radius,
+                            double turns) {
+  Face& face = disc(centre, normal, norm(start), {});
+  face.eu = normalized(start);
+  face.ev = cross(face.ew, face.eu);
+  face.origin = centre - face.radius * face.eu - face.radius * face.ev;
+  face.inner_radius = inner_radius;
+  face.set_sweep(turns);
+  return face;
+}
+
 void SceneModel::segment(EdgeKind kind, const std::string& role, const Vec3& from, const Vec3& to, double angle_deg) {
   edges.push_back(evaluate::make_segment(kind, role, from, to, angle_deg));
 }
@@ -89,6 +110,14 @@ void SceneModel::loop(EdgeKind kind, const std::string& role, const std::vector<
 void SceneModel::circle(EdgeKind kind, const std::string& role, const Vec3& centre, const Vec3& axis, double radius,
                         double angle_deg) {
   edges.push_back(evaluate::make_circle(kind, role, centre, axis, radius, angle_deg));
+}
+
+void SceneModel::arc(EdgeKind kind, const std::string& role, const Vec3& centre, const Vec3& axis, const Vec3& start,
+                     double sweep_deg, double angle_deg) {
+  TruthEdge edge = evaluate::make_circle(kind, role, centre, axis, norm(start), angle_deg);
+  edge.start = start;
+  edge.sweep_deg = sweep_deg;
+  edges.push_back(edge);
 }
 
 Box3 SceneModel::bounds() const {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "core/error.h"
 
@@ -15,7 +17,10 @@ constexpr double kJitter = 0.3;  // In cells, to either side.
 constexpr double kScanLineFactor =
     2.0;  // Distance of scan lines in spacings; along a line points are 1/2 spacing apart.
 constexpr double kSparsestFactor = 3.1622776601683795;  // Spacing at the sparse end of a gradient: density 10:1.
-constexpr double kOutlierMargin = 0.1;                  // Of the longest side of the scene.
+// With 6 candidates per cell of one spacing squared, discs of this radius leave one point per cell (measured).
+constexpr int kDiscCandidates = 6;
+constexpr double kDiscDistance = 0.724;  // In spacings.
+constexpr double kOutlierMargin = 0.1;   // Of the longest side of the scene.
 constexpr double kMostPoints = 1e15;
 
 /// Share of the full density at a place `t` in [0, 1] along the gradient: the local spacing grows linearly.
@@ -48,12 +53,6 @@ int poisson_1(double uniform) {
   return k;
 }
 
-Vec3 on_sphere(const Face& face, double turn, double height) {
-  const double around = std::sqrt(std::max(0.0, face.radius * face.radius - height * height));
-  const SinCos angle = sin_cos_turns(turn);
-  return face.origin + around * angle.cos * face.eu + around * angle.sin * face.ev + height * face.ew;
-}
-
 /// Mean share of the density over the face, by the midpoint rule on a fixed raster.
 double mean_share(const Face& face, const Box3& bounds, Sampling sampling) {
   if (sampling != Sampling::kGradient) return 1.0;
@@ -65,9 +64,10 @@ double mean_share(const Face& face, const Box3& bounds, Sampling sampling) {
       const double a = (i + 0.5) / kSteps, b = (j + 0.5) / kSteps;
       Vec3 position = face.at(a * face.size_u, b * face.size_v);
       if (face.shape == Face::Shape::kSphere) {
+        if ((2.0 * b - 1.0) * face.radius < face.cap_height) continue;
         position = on_sphere(face, a, (2.0 * b - 1.0) * face.radius);
       } else if (face.shape == Face::Shape::kCylinder) {
-        const SinCos angle = sin_cos_turns(a);
+        const SinCos angle = sin_cos_turns(a * face.sweep_turns);
         position = face.origin + face.radius * angle.cos * face.eu + face.radius * angle.sin * face.ev;
       } else if (face.shape == Face::Shape::kPlane && !face.owns(a * face.size_u, b * face.size_v)) {
         continue;
@@ -92,14 +92,6 @@ double weighted_measure(const SceneModel& model, Sampling sampling) {
 
 }  // namespace
 
-struct SurfaceSampler::Row {
-  std::uint64_t key = 0;
-  std::uint64_t columns = 1;
-  double v_low = 0.0, v_high = 0.0;  ///< Sphere: heights along the axis.
-  double w_low = 0.0, w_high = 0.0;  ///< Volume.
-  std::uint16_t face_number = 0;
-};
-
 double SurfaceSampler::spacing_for(const SceneModel& model, Sampling sampling, std::uint64_t points) {
   const double per_point = weighted_measure(model, sampling) / static_cast<double>(points);
   return is_volume(model) ? cube_root(per_point) : std::sqrt(per_point);
@@ -108,7 +100,9 @@ double SurfaceSampler::spacing_for(const SceneModel& model, Sampling sampling, s
 SurfaceSampler::SurfaceSampler(const SceneModel& model, const SurfaceSampling& sampling)
     : model_(model), sampling_(sampling), bounds_(model.bounds()) {
   const Vec3 size = bounds_.max - bounds_.min;
-  outlier_box_ = bounds_.expanded(kOutlierMargin * std::max({size.x, size.y, size.z}));
+  outlier_box_ = bounds_.expanded(model.spray_reach > 0.0 ? model.spray_reach
+                                                          : kOutlierMargin * std::max({size.x, size.y, size.z}));
+  sampling_.outliers = std::max(sampling_.outliers, model.spray_share);
   const double s = sampling.spacing;
   const double weighted = weighted_measure(model, sampling.sampling);
   expected_points_ = is_volume(model) ? weighted / (s * s * s) : weighted / (s * s);
@@ -131,6 +125,10 @@ SurfaceSampler::SurfaceSampler(const SceneModel& model, const SurfaceSampling& s
     const double row_height = size_v / static_cast<double>(raster.rows);
     const double layer_height = volume ? face.size_w / static_cast<double>(raster.layers) : s;
     raster.columns = cells(size_u * (row_height / s) * (layer_height / s), s);
+    if (sampling.sampling == Sampling::kPoisson && !volume && !sphere) {
+      raster.rows = cells(std::ceil(size_v / s), 1.0) + 2;
+      raster.columns = face.shape == Face::Shape::kPlane ? cells(std::ceil(size_u / s), 1.0) + 2 : cells(size_u, s);
+    }
     rows_ += raster.rows * raster.layers;
     unit_points_ = std::max(unit_points_, static_cast<std::size_t>(raster.columns));
     rasters_.push_back(raster);
@@ -141,18 +139,27 @@ void SurfaceSampler::make(std::uint64_t begin, std::uint64_t end, std::vector<io
   auto raster = std::upper_bound(rasters_.begin(), rasters_.end(), begin,
                                  [](std::uint64_t row, const Raster& r) { return row < r.first_row; });
   --raster;
+  std::optional<PoissonDiscRows> discs;
   for (std::uint64_t row = begin; row < end; ++row) {
-    while (row >= raster->first_row + raster->rows * raster->layers) ++raster;
-    make_row(*raster, row - raster->first_row, out);
+    while (row >= raster->first_row + raster->rows * raster->layers) {
+      ++raster;
+      discs.reset();
+    }
+    if (sampling_.sampling == Sampling::kPoisson && model_.faces[raster->face].shape != Face::Shape::kVolume) {
+      if (!discs) discs.emplace(discs_of(*raster));
+      make_disc_row(*raster, row - raster->first_row, *discs, out);
+    } else {
+      make_row(*raster, row - raster->first_row, out);
+    }
   }
 }
 
-void SurfaceSampler::make_row(const Raster& raster, std::uint64_t index, std::vector<io::FreshPoint>& out) const {
+CellRow SurfaceSampler::row_of(const Raster& raster, std::uint64_t index) const {
   const Face& face = model_.faces[raster.face];
   const double v_index = static_cast<double>(index % raster.rows);
   const double layer = static_cast<double>(index / raster.rows);
   const double rows = static_cast<double>(raster.rows), layers = static_cast<double>(raster.layers);
-  Row row;
+  CellRow row;
   row.key = derive_key(derive_key(sampling_.seed, raster.face), index);
   row.columns = raster.columns;
   row.face_number = static_cast<std::uint16_t>(raster.face + 1);
@@ -166,11 +173,56 @@ void SurfaceSampler::make_row(const Raster& raster, std::uint64_t index, std::ve
     const double share = sin_cos_turns(0.5 * (v_index + 0.5) / rows).sin;
     row.columns =
         std::max<std::uint64_t>(1, static_cast<std::uint64_t>(share * static_cast<double>(raster.columns) + 0.5));
+  } else if (sampling_.sampling == Sampling::kPoisson && face.shape != Face::Shape::kVolume) {
+    row.v_low = (v_index - 1.0) * sampling_.spacing;
+    row.v_high = v_index * sampling_.spacing;
+    if (face.shape == Face::Shape::kPlane) row.u_pitch = sampling_.spacing;
   }
+  return row;
+}
+
+PoissonDiscRows SurfaceSampler::discs_of(const Raster& raster) const {
+  const Face& face = model_.faces[raster.face];
+  PoissonDiscRows::Lattice lattice;
+  lattice.rows = raster.rows;
+  lattice.per_cell = kDiscCandidates;
+  lattice.distance = kDiscDistance * sampling_.spacing;
+  lattice.round = face.shape != Face::Shape::kPlane && face.sweep_turns >= 1.0;
+  lattice.columns = [this, raster](std::uint64_t row) { return row_of(raster, row).columns; };
+  lattice.candidate = [this, &face, raster, row = CellRow{}, at = ~std::uint64_t{0}](
+                          std::uint64_t index, std::uint64_t column, int number) mutable {
+    if (index != at) {
+      row = row_of(raster, index);
+      at = index;
+    }
+    const std::uint64_t key = derive_key(cell_key(row.key, column), static_cast<std::uint64_t>(number));
+    PointRandom random(key);
+    const double a = random.uniform(), b = random.uniform();
+    return PoissonDiscRows::Candidate{position_of(face, row, column, a, b).first, mix64(~key)};
+  };
+  return PoissonDiscRows(std::move(lattice));
+}
+
+void SurfaceSampler::make_disc_row(const Raster& raster, std::uint64_t index, PoissonDiscRows& discs,
+                                   std::vector<io::FreshPoint>& out) const {
+  const CellRow row = row_of(raster, index);
+  discs.forget_below(index > kDiscCandidates ? index - kDiscCandidates : 0);
+  for (std::uint64_t column = 0; column < row.columns; ++column) {
+    for (int k = 0; k < kDiscCandidates; ++k) {
+      if (!discs.stays(index, column, k)) continue;
+      const std::uint64_t key = derive_key(cell_key(row.key, column), static_cast<std::uint64_t>(k));
+      place(model_.faces[raster.face], row, column, PointRandom(key), out);
+    }
+  }
+}
+
+void SurfaceSampler::make_row(const Raster& raster, std::uint64_t index, std::vector<io::FreshPoint>& out) const {
+  const Face& face = model_.faces[raster.face];
+  const CellRow row = row_of(raster, index);
   const bool process = sampling_.sampling == Sampling::kRandom || sampling_.sampling == Sampling::kGradient ||
                        face.shape == Face::Shape::kVolume;
   for (std::uint64_t column = 0; column < row.columns; ++column) {
-    const std::uint64_t key = row.key + column * 0xd1342543de82ef95ULL;  // Odd: distinct columns have distinct keys.
+    const std::uint64_t key = cell_key(row.key, column);
     if (!process) {
       place(face, row, column, PointRandom(mix64(key)), out);
       continue;
@@ -181,7 +233,7 @@ void SurfaceSampler::make_row(const Raster& raster, std::uint64_t index, std::ve
   }
 }
 
-void SurfaceSampler::place(const Face& face, const Row& row, std::uint64_t column, PointRandom random,
+void SurfaceSampler::place(const Face& face, const CellRow& row, std::uint64_t column, PointRandom random,
                            std::vector<io::FreshPoint>& out) const {
   double a = 0.5, b = 0.5;  // Place within the cell, [0, 1].
   const bool volume = face.shape == Face::Shape::kVolume;
@@ -198,6 +250,7 @@ void SurfaceSampler::place(const Face& face, const Row& row, std::uint64_t colum
         break;
       case Sampling::kRandom:
       case Sampling::kGradient:
+      case Sampling::kPoisson:
         a = random.uniform();
         b = random.uniform();
         break;
@@ -206,33 +259,14 @@ void SurfaceSampler::place(const Face& face, const Row& row, std::uint64_t colum
         break;  // One phase per line.
     }
   }
-  const double turn = (static_cast<double>(column) + a) / static_cast<double>(row.columns);
-  const double v = row.v_low + b * (row.v_high - row.v_low);
-  Vec3 position;
-  switch (face.shape) {
-    case Face::Shape::kPlane: {
-      const double u = turn * face.size_u;
-      if (!face.owns(u, v)) return;
-      position = face.at(u, v);
-      break;
-    }
-    case Face::Shape::kCylinder: {
-      const SinCos angle = sin_cos_turns(turn);
-      position = face.origin + face.radius * angle.cos * face.eu + face.radius * angle.sin * face.ev + v * face.ew;
-      break;
-    }
-    case Face::Shape::kSphere:
-      position = on_sphere(face, turn, v);
-      break;
-    case Face::Shape::kVolume:
-      position = face.at(turn * face.size_u, v) + (row.w_low + random.uniform() * (row.w_high - row.w_low)) * face.ew;
-      break;
-  }
+  auto [position, owned] = position_of(face, row, column, a, b);
+  if (!owned) return;
+  if (volume) position = position + (row.w_low + random.uniform() * (row.w_high - row.w_low)) * face.ew;
   if (sampling_.sampling == Sampling::kGradient && random.uniform() >= gradient_share_at(bounds_, position)) return;
   finish(face, row, position, random, out);
 }
 
-void SurfaceSampler::finish(const Face& face, const Row& row, Vec3 position, PointRandom& random,
+void SurfaceSampler::finish(const Face& face, const CellRow& row, Vec3 position, PointRandom& random,
                             std::vector<io::FreshPoint>& out) const {
   io::FreshPoint point;
   const bool outlier = sampling_.outliers > 0.0 && random.uniform() < sampling_.outliers;

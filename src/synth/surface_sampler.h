@@ -6,7 +6,9 @@
 
 #include "synth/counter_random.h"
 #include "synth/point_units.h"
+#include "synth/poisson_disc.h"
 #include "synth/scene_model.h"
+#include "synth/surface_cells.h"
 
 namespace arris::synth {
 
@@ -38,12 +40,16 @@ class SurfaceSampler final : public PointUnits {
     std::uint64_t first_row = 0;
     std::uint64_t columns = 1, rows = 1, layers = 1;  ///< Of cells; a sphere's rows have columns of their own.
   };
-  struct Row;
 
+  CellRow row_of(const Raster& raster, std::uint64_t index) const;
   void make_row(const Raster& raster, std::uint64_t row, std::vector<io::FreshPoint>& out) const;
-  void place(const Face& face, const Row& row, std::uint64_t column, PointRandom random,
+  /// The candidates of a raster for Poisson-disc sampling.
+  PoissonDiscRows discs_of(const Raster& raster) const;
+  void make_disc_row(const Raster& raster, std::uint64_t row, PoissonDiscRows& discs,
+                     std::vector<io::FreshPoint>& out) const;
+  void place(const Face& face, const CellRow& row, std::uint64_t column, PointRandom random,
              std::vector<io::FreshPoint>& out) const;
-  void finish(const Face& face, const Row& row, Vec3 position, PointRandom& random,
+  void finish(const Face& face, const CellRow& row, Vec3 position, PointRandom& random,
               std::vector<io::FreshPoint>& out) const;
 
   const SceneModel& model_;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "evaluate/label_comparison.h"
 #include "random_edges.h"
 
 namespace arris::evaluate {
@@ -289,6 +290,153 @@ RC_GTEST_PROP(Evaluation_Oracle, AnyPointsAndEdges_EqualBruteForce, ()) {
     }
     RC_ASSERT(row.recall.has_value() == (total > 0.0));
     if (total > 0.0) RC_ASSERT(std::abs(*row.recall - covered / total) < 1e-9);
+  }
+}
+
+/// Two parallel edges 100 m apart with spacings of 0.1 and 1 m, and coarse ones twice as large.
+Truth two_spacings() {
+  Truth truth = line_truth();
+  truth.edges.push_back(make_segment(EdgeKind::kBoundary, "eave", {0, 100, 0}, {10, 100, 0}));
+  truth.edges[0].spacing = 0.1;
+  truth.edges[1].spacing = 1.0;
+  for (TruthEdge& edge : truth.edges) edge.spacing_max = 2.0 * edge.spacing;
+  return truth;
+}
+
+TEST(Evaluation_LocalSpacing, SameOffset_IsFarFromAFineEdgeAndNearACoarseOne) {
+  std::vector<PredictedPoint> points = line_points(10.0, 0.05, 0.15);
+  for (const PredictedPoint& p : line_points(10.0, 0.05, 100.15)) points.push_back(p);
+  EvaluationOptions options;
+  options.spacing_of = SpacingOf::kLocal;
+  const ContourEvaluation result = evaluate_contours(points, two_spacings(), options);
+  ASSERT_EQ(result.tolerances.size(), 4U);  // No tolerance of the noise.
+  const ToleranceResult& one = at(result, 1.0);
+  EXPECT_DOUBLE_EQ(*one.precision, 0.5);
+  EXPECT_DOUBLE_EQ(*one.recall, 0.5);
+  EXPECT_DOUBLE_EQ(*one.recall_of_kind[static_cast<std::size_t>(EdgeKind::kBoundary)], 1.0);
+  EXPECT_DOUBLE_EQ(*one.recall_of_kind[static_cast<std::size_t>(EdgeKind::kConvex)], 0.0);
+  EXPECT_NEAR(*one.offset_mean, 0.15, 1e-9);  // In spacings of 1 m.
+  EXPECT_NEAR(*one.thinness, 20.0, 1e-9);
+  EXPECT_DOUBLE_EQ(*at(result, 2.0).f1, 1.0);
+  EXPECT_NEAR(*result.hausdorff, std::hypot(0.15, 0.025), 1e-9);  // In data units.
+  options.spacing_of = SpacingOf::kLocalMax;
+  EXPECT_DOUBLE_EQ(*at(evaluate_contours(points, two_spacings(), options), 1.0).f1, 1.0);
+}
+
+TEST(Evaluation_LocalSpacing, NearestEdgeInMetres_NeedNotBeTheOneThatCounts) {
+  Truth truth = two_spacings();
+  truth.edges[1] = make_segment(EdgeKind::kBoundary, "eave", {0, 1, 0}, {10, 1, 0});
+  truth.edges[1].spacing = 1.0;
+  EvaluationOptions options;
+  options.spacing_of = SpacingOf::kLocal;
+  // 0.4 m from the fine edge (4 spacings), 0.6 m from the coarse one.
+  const ContourEvaluation result = evaluate_contours(line_points(10.0, 0.1, 0.4), truth, options);
+  EXPECT_DOUBLE_EQ(*at(result, 1.0).precision, 1.0);
+  EXPECT_DOUBLE_EQ(*at(result, 0.5).precision, 0.0);
+}
+
+TEST(Evaluation_LocalSpacing, CoverageOfTheInput_IsInLocalSpacings) {
+  EvaluationOptions options;
+  options.spacing_of = SpacingOf::kLocal;
+  InputCoverage coverage(two_spacings(), options);
+  std::vector<Vec3> input;
+  for (const double y : {0.15, 100.15}) {
+    for (double x = 0.025; x < 10.0; x += 0.05) input.push_back({x, y, 0});
+  }
+  coverage.add(input);
+  const ContourEvaluation result = evaluate_contours({}, two_spacings(), options, &coverage);
+  EXPECT_DOUBLE_EQ(*at(result, 1.0).ceiling, 0.5);
+  EXPECT_DOUBLE_EQ(*at(result, 2.0).ceiling, 1.0);
+}
+
+TEST(Evaluation_LocalSpacing, TruthWithoutIt_IsRefused) {
+  EvaluationOptions options;
+  options.spacing_of = SpacingOf::kLocal;
+  EXPECT_THROW(evaluate_contours({}, line_truth(), options), ConfigError);
+}
+
+TEST(Evaluation_MinScore, PointsBelowIt_AreNoDetections) {
+  std::vector<PredictedPoint> points = line_points(10.0, kSpacing);
+  for (PredictedPoint p : line_points(10.0, kSpacing, 5.0)) {
+    p.score = 0.4F;
+    points.push_back(p);
+  }
+  EvaluationOptions options;
+  options.scores = true;
+  options.min_score = 0.5F;
+  const ContourEvaluation result = evaluate_contours(points, line_truth(), options);
+  EXPECT_EQ(result.below_min_score, 20U);
+  EXPECT_DOUBLE_EQ(*at(result, kSpacing).precision, 1.0);
+}
+
+Truth square_truth() {
+  Truth truth;
+  truth.properties["spacing"] = exact_text(kSpacing);
+  const std::vector<Vec3> corners{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    // In two pieces: where a straight line is cut is no corner.
+    const Vec3 middle = 0.5 * (corners[i] + corners[(i + 1) % 4]);
+    truth.edges.push_back(make_segment(EdgeKind::kConvex, "", corners[i], middle, 90.0));
+    truth.edges.push_back(make_segment(EdgeKind::kConvex, "", middle, corners[(i + 1) % 4], 90.0));
+  }
+  return truth;
+}
+
+TEST(Evaluation_Corners, OfASquare_AreFourAndTheirRecallIsTheirOwn) {
+  std::vector<PredictedPoint> points;  // All along the sides but for the last 2 m before each corner.
+  for (double t = 2.0; t <= 8.0; t += 0.1) {
+    for (const double side : {0.0, 10.0}) {
+      points.push_back({t, side, 0, 0xff, 1.0F});
+      points.push_back({side, t, 0, 0xff, 1.0F});
+    }
+  }
+  const ContourEvaluation result = evaluate_contours(points, square_truth(), {});
+  EXPECT_NEAR(result.corner_length, 4 * 2 * 2 * kSpacing, 1e-9);
+  EXPECT_DOUBLE_EQ(*at(result, kSpacing).recall_of_corners, 0.0);
+  EXPECT_GT(*at(result, kSpacing).recall, 0.6);
+  for (const double place : {0.0, 10.0}) points.push_back({place, place, 0, 0xff, 1.0F});
+  EXPECT_NEAR(*at(evaluate_contours(points, square_truth(), {}), 1.0).recall_of_corners, 0.5, 0.26);
+}
+
+TEST(Evaluation_Corners, StraightLineAndCircle_HaveNone) {
+  EXPECT_EQ(evaluate_contours({}, line_truth(), {}).corner_length, 0.0);
+  Truth circle = line_truth();
+  circle.edges = {make_circle(EdgeKind::kRimConvex, "", {0, 0, 0}, {0, 0, 1}, 5.0, 90.0)};
+  EXPECT_EQ(evaluate_contours({}, circle, {}).corner_length, 0.0);
+}
+
+TEST(LabelComparison_Counts, KnownTable_GivesIouAndMcc) {
+  // Input: 8 points on the edge, 12 far from it. Called: 6 of the former, 3 of the latter.
+  std::vector<Vec3> input;
+  for (int i = 0; i < 8; ++i) input.push_back({1.0 + i, 0, 0});
+  for (int i = 0; i < 12; ++i) input.push_back({0.5 * i, 5, 0});
+  std::vector<PredictedPoint> called;
+  for (const int i : {0, 1, 2, 3, 4, 5, 8, 9, 10}) {
+    const Vec3& p = input[static_cast<std::size_t>(i)];
+    called.push_back({p.x, p.y, p.z, 0xff, 1.0F});
+  }
+  LabelComparison labels(called, line_truth(), {});
+  labels.add(std::span(input).first(5));
+  labels.add(std::span(input).subspan(5));
+  const LabelAgreement result = labels.result();
+  EXPECT_EQ(result.tolerance_spacings, 0.5);
+  EXPECT_EQ(result.true_positives, 6U);
+  EXPECT_EQ(result.false_positives, 3U);
+  EXPECT_EQ(result.false_negatives, 2U);
+  EXPECT_EQ(result.true_negatives, 9U);
+  EXPECT_DOUBLE_EQ(*result.iou, 6.0 / 11.0);
+  EXPECT_NEAR(*result.mcc, (6.0 * 9 - 3 * 2) / std::sqrt(9.0 * 8 * 12 * 11), 1e-12);
+}
+
+TEST(LabelComparison_Tolerance, IsHalfASpacingAndAWholeOneWithNoise) {
+  const std::vector<Vec3> input{{5, 0.2, 0}, {5, 0.4, 0}, {5, 0.6, 0}};
+  EvaluationOptions options;
+  for (const double noise : {0.0, 0.1}) {
+    options.noise = noise;
+    LabelComparison labels({}, line_truth(), options);
+    labels.add(input);
+    EXPECT_EQ(labels.result().false_negatives, noise > 0.0 ? 2U : 1U);
+    EXPECT_FALSE(labels.result().mcc);
   }
 }
 

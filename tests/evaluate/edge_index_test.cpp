@@ -11,11 +11,13 @@ namespace {
 RC_GTEST_PROP(EdgeIndex_Nearest, AnyPointAndEdges_EqualsBruteForce, ()) {
   const auto edges = *rc::gen::container<std::vector<TruthEdge>>(any_edge());
   const auto points = *rc::gen::container<std::vector<Vec3>>(position());
-  const EdgeIndex index(edges);
+  std::vector<double> units;
+  for (std::size_t i = 0; i < edges.size(); ++i) units.push_back(*rc::gen::element(0.01, 0.3, 1.0, 1.5, 70.0));
+  const EdgeIndex index(edges, units);
   for (const Vec3& point : points) {
     EdgeIndex::Nearest expected;
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      const double distance = edges[i].distance(point);
+      const double distance = edges[i].distance(point) / units[i];
       if (distance < expected.distance) expected = {i, distance};
     }
     const EdgeIndex::Nearest found = index.nearest(point);

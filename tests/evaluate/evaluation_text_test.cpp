@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace arris::evaluate {
 namespace {
@@ -34,6 +36,17 @@ TEST(EvaluationText_Json, UndefinedFigures_AreNull) {
   const auto json = nlohmann::json::parse(to_json(sample(false)));
   EXPECT_TRUE(json["tolerances"][0]["precision"].is_null());
   EXPECT_TRUE(json["hausdorff"].is_null());
+}
+
+TEST(EvaluationText_Csv, EveryLine_HasAsManyCellsAsNames) {
+  std::istringstream text(to_csv(sample(true)));
+  std::string line;
+  std::getline(text, line);
+  const auto commas = std::count(line.begin(), line.end(), ',');
+  EXPECT_TRUE(line.starts_with("tolerance,tolerance_spacings,true_positives,"));
+  int rows = 0;
+  for (; std::getline(text, line); ++rows) EXPECT_EQ(std::count(line.begin(), line.end(), ','), commas);
+  EXPECT_EQ(rows, 4);
 }
 
 TEST(EvaluationText_Table, EveryTolerance_HasALine) {

@@ -74,6 +74,23 @@ TEST(TruthCsv_Read, DamagedLine_IsNamedWithItsNumber) {
   }
 }
 
+TEST(TruthCsv_Spacing, Columns_AreWrittenIfNeededAndReadBack) {
+  Truth truth;
+  truth.edges = {make_segment(EdgeKind::kConvex, "a", {0, 0, 0}, {1, 0, 0}, 90.0)};
+  std::ostringstream without, with;
+  write_truth_csv(without, truth);
+  EXPECT_EQ(without.str().find("spacing"), std::string::npos);
+  truth.edges.push_back(truth.edges[0]);
+  truth.edges[1].spacing = 0.1;
+  truth.edges[1].spacing_max = 0.3;
+  write_truth_csv(with, truth);
+  EXPECT_EQ(parse(with.str()), truth);
+  const std::string head = kHead + std::string(kColumns);
+  const std::string wide = head.substr(0, head.size() - 1) + ",spacing,spacing_max\n";
+  EXPECT_NE(complaint(wide + "convex,box,segment,90,0,0,0,1,0,0,0,0,0,0\n").find("16 fields"), std::string::npos);
+  EXPECT_NE(complaint(wide + "convex,box,segment,90,0,0,0,1,0,0,0,0,0,0,-1,0\n").find("line 4"), std::string::npos);
+}
+
 TEST(TruthCsv_Read, OtherOrCutFiles_AreRefused) {
   EXPECT_NE(complaint(""), "");
   EXPECT_NE(complaint("x,y,z\n1,2,3\n"), "");

@@ -102,7 +102,7 @@ RC_GTEST_PROP(LiuMethod, EarlyRejectionOff_ChangesNothing, ()) {
 RC_GTEST_PROP(LiuMethod, WiderArithmetic_ChangesNothing, ()) {
   const Cloud cloud = any_cloud(600);
   const TilePoints tile = tile_of(cloud.positions, cloud.seed);
-  for (const auto narrowest : {LiuSwitches::Arithmetic::kDouble, LiuSwitches::Arithmetic::kInt64}) {
+  for (const auto narrowest : {Arithmetic::kDouble, Arithmetic::kInt64}) {
     LiuSwitches switches;
     switches.narrowest = narrowest;
     expect_equal(run(tile, cloud.parameters),

@@ -44,7 +44,9 @@ std::vector<double> faces_around(const Scene& scene, const TruthEdge& edge) {
 
 class SceneTruth : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneTruth,
-                         testing::Values("block", "plates", "stairs", "gable", "hip", "dihedral", "plane"),
+                         testing::Values("block", "plates", "stairs", "gable", "hip", "dihedral", "plane", "crossgable",
+                                         "mansard", "dormer", "dome", "parapet", "columns", "facade", "sculpture",
+                                         "corners", "spray"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(SceneTruth, EveryEdge_LiesOnFaces) {
@@ -111,6 +113,63 @@ TEST(DihedralTruth_Angles, FromThirtyTo170_EachHasOneFold) {
   }
   ASSERT_EQ(angles.size(), 15U);
   for (int angle = 30; angle <= 170; angle += 10) EXPECT_EQ(angles[angle], 1);
+}
+
+TEST(RoundEdgeTruth_Folds, AreTheMiddlesOfRoundsUpToOneSpacing) {
+  SceneRequest request = request_of("roundedge");
+  request.spacing = 0.05;
+  const Scene scene(request);
+  std::map<std::string, TruthEdge> folds;
+  for (const TruthEdge& edge : scene.edges()) {
+    if (edge.kind == EdgeKind::kConvex) folds[edge.role] = edge;
+    for (int i = 0; i <= 4; ++i) {
+      const Vec3 p = edge.point_at(i / 4.0);
+      ASSERT_LT(scene.distance({p.x, p.y, p.z}), 1e-9) << edge.role;
+    }
+  }
+  ASSERT_EQ(folds.size(), 5U);
+  EXPECT_EQ(folds.at("radius_0").a.z, 0.0);
+  EXPECT_NEAR(folds.at("radius_100").a.z, -0.05 * (1.0 - std::sqrt(0.5)), 1e-12);
+  EXPECT_FALSE(folds.contains("radius_200"));
+}
+
+TEST(MansardTruth_Lengths, HipsBreakAndRidge_AreAsBuilt) {
+  const auto found = lengths(Scene(request_of("mansard")));
+  const double inset = 3.0 / std::tan(70.0 / 180.0 * std::numbers::pi);
+  const double x = 8.0 - inset, y = 5.5 - inset, rise = y * std::tan(25.0 / 180.0 * std::numbers::pi);
+  EXPECT_NEAR(found.at(EdgeKind::kBoundary), 54.0, 1e-9);
+  EXPECT_NEAR(found.at(EdgeKind::kConvex),
+              4 * std::hypot(3.0, inset, inset) + 4 * (x + y) + 4 * std::hypot(y, y, rise) + 2 * (8.0 - 5.5), 1e-9);
+}
+
+TEST(RoofTruth_Valleys, OfCrossGableAndDormer_AreFourAndSix) {
+  for (const auto& [scene, wanted] : {std::pair{"crossgable", 4}, std::pair{"dormer", 6}}) {
+    int valleys = 0;
+    const Scene built(request_of(scene));
+    for (const TruthEdge& edge : built.edges()) valleys += edge.role == "valley" ? 1 : 0;
+    EXPECT_EQ(valleys, wanted) << scene;
+  }
+}
+
+TEST(SculptureTruth_Arcs, EachLetterHasEight) {
+  int arcs = 0;
+  const Scene scene(request_of("sculpture"));
+  for (const TruthEdge& edge : scene.edges()) {
+    arcs += edge.shape == TruthEdge::Shape::kArc && edge.sweep_deg == 270.0 ? 1 : 0;
+  }
+  EXPECT_EQ(arcs, 3 * 8);
+}
+
+TEST(SprayScene_StrayPoints, AreAsManyAndAsNearAsAskedFor) {
+  SceneRequest request = request_of("spray", 50000);
+  request.options = {{"share", 0.1}, {"reach", 0.3}};
+  double stray = 0.0, all = 0.0;
+  for (const auto& p : all_points(Scene(request))) {
+    ++all;
+    if (p.classification == 7) ++stray;
+    ASSERT_LE(std::abs(p.y), 0.3);
+  }
+  EXPECT_NEAR(stray / all, 0.1, 0.01);
 }
 
 TEST(FeaturelessTruth_SphereNoiseAndPlane, HaveNoFolds) {

@@ -1,0 +1,1 @@
+"""The table of accuracy: clouds, detectors, judges and the report. Started by bench/accuracy/run."""

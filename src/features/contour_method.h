@@ -1,0 +1,51 @@
+#pragma once
+/// @file The methods that find contour points, behind one door.
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "core/lattice.h"
+#include "core/tile_points.h"
+#include "features/arris_parameters.h"
+#include "features/liu_parameters.h"
+#include "features/tile_contours.h"
+
+namespace arris {
+
+/// Which method, and the parameters of all; those of the others have no effect.
+struct ContourParameters {
+  enum class Method : std::uint8_t { kArris, kLiu } method = Method::kArris;
+  ArrisParameters arris;
+  LiuParameters liu;
+
+  std::string_view name() const { return method == Method::kArris ? "arris" : "liu"; }
+  double spacing() const { return method == Method::kArris ? arris.spacing : liu.spacing; }
+  double max_radius() const { return method == Method::kArris ? arris.max_radius : liu.max_radius; }
+  void set_max_radius(double radius) { (method == Method::kArris ? arris.max_radius : liu.max_radius) = radius; }
+  /// Radius that the user has fixed for all balls, 0 if none: R_max must not be smaller.
+  double fixed_radius() const { return method == Method::kArris ? 0.0 : liu.radius; }
+  /// False if every test is switched off: then no point is a contour point.
+  bool any_test() const { return method == Method::kArris ? arris.boundary || arris.fold : liu.boundary || liu.fold; }
+};
+
+/// Throws ConfigError, naming the option, if a value of the chosen method is out of range.
+void validate(const ContourParameters& parameters);
+
+/// See extract_arris and extract_liu.
+TileContours extract_contours(const TilePoints& tile, const Lattice& lattice, const ContourParameters& parameters);
+TileContours extract_contours(const TilePoints& tile, const Lattice& lattice, const ContourParameters& parameters,
+                              std::span<const std::uint32_t> queries);
+
+/// A halo, in data units, that proves nearly all queries where the spacing is at most `spacing`.
+double contour_halo(const ContourParameters& parameters, double spacing);
+
+/// Drops from a combined record what the parameters do not let pass and gives it its final score; classes 0: no
+/// contour.
+void finish_record(ContourRecord& record, const ContourParameters& parameters);
+
+/// Bytes beyond the tile itself, for predictions, whatever the method.
+extern const double kContourBytesPerPoint;
+extern const double kContourBytesPerThread;
+
+}  // namespace arris

@@ -1,0 +1,174 @@
+#include "features/point_analysis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "features/curved_surface.h"
+#include "features/exact_math.h"
+
+namespace arris {
+namespace {
+
+/// Fold fits below this rms, spacings, need no larger ball.
+constexpr double kQuietRms = 0.1;
+/// Fold fits above this rms on the second ball need the third.
+constexpr double kNoisyRms = 0.45;
+/// The fit on a larger ball is believed if its rms is at most this multiple of the smaller one's, plus a bit.
+constexpr double kRmsGrowth = 1.4;
+constexpr double kRmsAllowance = 0.03;
+/// Noise does not grow with the ball, folds do: by 9 / 5.
+constexpr double kNoiseGrowth = 1.3;
+/// Two planes explain noise hardly better than one: their rms stays above this share.
+constexpr double kNoiseShare = 0.65;
+constexpr double kMostNoise = 0.85;
+/// Second and third ball: flat below this rms.
+constexpr double kFlatRmsOf[] = {kFlatRms, 0.3, 0.5};
+
+constexpr double kLeastTurn_deg = 28.0;
+constexpr double kMostRmsShare = 0.6;
+constexpr double kLeastArmShare = 1.0 / 8.0;
+constexpr double kMostDistance = 0.94;
+/// A fold must explain the points better than a smooth surface does.
+constexpr double kMostCurvedShare = 0.93;
+
+constexpr double kLeastGap_deg = 105.0;
+constexpr double kCertainGap_deg = 135.0;
+constexpr double kMostDepth = 0.7;
+/// A disc this large without points beside the point: by chance less than once in 10^6 points.
+constexpr double kLeastEmptyRadius = 2.2;
+constexpr double kFalseAlarms = 1e-4;
+/// Narrower layers (rms across their longest direction, spacings) are single scan lines.
+constexpr double kLeastRimWidth = 0.7;
+constexpr double kLeastAzimuths = 8.0;
+constexpr double kLeastInnerShare = 0.7;
+/// Noise that two-plane fits show is partly bad fit; boundaries are judged with at most this much.
+constexpr double kMostRimNoise = 0.5;
+
+struct LevelFit {
+  int level = 0;
+  bool flat = false;
+  bool arms = false;
+  double all_rms = 0.0;
+  double all_count = 0.0;
+  FoldLine line;
+};
+
+LevelFit fit_level(const BallPoints& points, int level) {
+  LevelFit fit;
+  fit.level = level;
+  const double radius = kBallRadii[level];
+  fit.all_count = static_cast<double>(points.count);
+  if (fit.all_count < kLeastBallMembers || fit.all_count > kMostBallPoints) return fit;
+  const FittedPlane all = fit_plane(sum_within(points, radius));
+  fit.all_rms = all.rms;
+  fit.flat = all.rms < kFlatRmsOf[level];
+  if (fit.flat) return fit;
+  const PlanePair pair = fit_plane_pair(points, radius, all);
+  if (pair.kind == PlanePair::Kind::kArms) {
+    fit.arms = refine_fold(points, pair, fit.line);
+  }
+  return fit;
+}
+
+bool believable(const LevelFit& larger, const LevelFit& smaller) {
+  return larger.flat ||
+         (larger.arms && (!smaller.arms || larger.line.rms < kRmsGrowth * smaller.line.rms + kRmsAllowance));
+}
+
+/// The a-contrario gap of n directions: wider ones come about by chance less than kFalseAlarms times.
+double significant_gap_deg(double n) {
+  // (1 - gap / 360)^(n - 1) * n = kFalseAlarms.
+  const double exponent = log_of_positive(kFalseAlarms / n) / (n - 1.0);
+  // 1 - exp(x) for x in about [-2, 0): the series of exp needs no library.
+  double term = 1.0;
+  double sum = 1.0;
+  for (int i = 1; i <= 24; ++i) {
+    term *= exponent / i;
+    sum += term;
+  }
+  return 360.0 * (1.0 - sum);
+}
+
+bool judge_fold(const LevelFit& fit, const BallPoints& points, PointContour& contour) {
+  const FoldLine& line = fit.line;
+  const double arms = line.count_a + line.count_b;
+  contour.line_spacing = std::min(1.0, kBallRadii[fit.level] * std::sqrt(kPi / arms));
+  if (line.angle_deg > 180.0 - kLeastTurn_deg) return false;
+  if (line.rms > kMostRmsShare * fit.all_rms) return false;
+  if (std::min(line.count_a, line.count_b) < kLeastArmShare * fit.all_count) return false;
+  if (line.distance > kMostDistance * contour.line_spacing) return false;
+  if (line.support_a < 1 || line.support_b < 1) return false;
+  if (line.rms > kMostCurvedShare * curved_surface_rms(points, line)) return false;
+  contour.kind = PointContour::Kind::kFold;
+  contour.line = line;
+  contour.nearest = line.foot;
+  contour.direction = line.direction;
+  contour.score = 1.0;
+  return true;
+}
+
+bool judge_rim(const RimShape& rim, PointContour& contour) {
+  if (rim.count < kLeastAzimuths || rim.inner_share < kLeastInnerShare || rim.offset > rim.gate) return false;
+  if (rim.width < kLeastRimWidth) return false;
+  const double significant = significant_gap_deg(rim.count);
+  if (rim.gap_deg < std::max(kLeastGap_deg, significant)) return false;
+  if (rim.depth > kMostDepth && rim.gap_deg < kCertainGap_deg && rim.empty_radius < kLeastEmptyRadius) return false;
+  contour.kind = PointContour::Kind::kBoundary;
+  contour.gap_deg = rim.gap_deg;
+  contour.nearest = rim.nearest;
+  contour.score = 1.0;
+  return true;
+}
+
+}  // namespace
+
+bool analyse_point(const PointProspects& prospects, BallProvider& balls, AnalysisScratch& scratch, bool want_fold,
+                   bool want_boundary, PointContour& contour) {
+  contour = {};
+  const BallPoints* first = balls.ball(0);
+  if (first == nullptr) return false;
+  if (static_cast<double>(first->count) > kMostBallPoints) return true;
+  double noise = prospects.rms;
+  if (prospects.fold && want_fold) {
+    LevelFit best = fit_level(*first, 0);
+    const double first_rms = best.arms ? best.line.rms : 1.0;
+    bool noisy_plane = false;
+    if (first_rms > kQuietRms) {
+      const BallPoints* second = balls.ball(1);
+      if (second == nullptr) return false;
+      if (first_rms > kNoiseShare * best.all_rms) {
+        const FittedPlane all = fit_plane(sum_within(*second, kBallRadii[1]));
+        noisy_plane = all.rms < std::min(kNoiseGrowth * prospects.rms, kMostNoise);
+        if (noisy_plane) noise = all.rms;
+      }
+      if (!noisy_plane) {
+        const LevelFit wide = fit_level(*second, 1);
+        const double second_rms = wide.arms ? wide.line.rms : 1.0;
+        if (believable(wide, best)) best = wide;
+        if (first_rms > kNoisyRms && second_rms > kNoisyRms && !wide.flat) {
+          const BallPoints* third = balls.ball(2);
+          if (third == nullptr) return false;
+          const LevelFit widest = fit_level(*third, 2);
+          if (believable(widest, best)) best = widest;
+        }
+      }
+    }
+    if (!noisy_plane) {
+      noise = best.flat ? best.all_rms : best.arms ? std::min(best.line.rms, kMostRimNoise) : 0.3;
+      if (best.arms && !best.flat && judge_fold(best, *balls.ball(best.level), contour)) return true;
+    }
+  }
+  if (want_boundary) {
+    RimShape rim = measure_rim(*first, kBallRadii[0], noise, scratch.rim);
+    if (rim.width < kLeastRimWidth &&
+        rim.gap_deg >= kLeastGap_deg) {  // A scan line; its neighbours may be in the next ball.
+      const BallPoints* second = balls.ball(1);
+      if (second == nullptr) return false;
+      rim = measure_rim(*second, kBallRadii[1], noise, scratch.rim);
+    }
+    judge_rim(rim, contour);
+  }
+  return true;
+}
+
+}  // namespace arris

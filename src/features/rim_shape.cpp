@@ -1,0 +1,135 @@
+#include "features/rim_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "features/exact_math.h"
+
+namespace arris {
+namespace {
+
+constexpr double kLeastGate = 0.8;
+constexpr double kGateDeviations = 3.0;
+/// Radii of the discs on which the layer's plane is fitted, spacings; the last is the caller's, twice.
+constexpr double kFirstDisc = 2.2;
+constexpr double kDiscs[] = {2.5, 3.5};
+constexpr double kLeastLayerPoints = 5.0;
+/// Nearer projections have no azimuth, spacings.
+constexpr double kLeastOffset = 0.25;
+/// Radius of the disc whose hull is taken: concave rims of radius 15 bulge into it by half a spacing.
+constexpr double kHullRadius = 4.0;
+
+/// Larger empty discs are not told apart.
+constexpr double kMostEmptyRadius = 100.0;
+
+using Planar = std::pair<double, double>;
+
+double turn(const Planar& o, const Planar& a, const Planar& b) {
+  return (a.first - o.first) * (b.second - o.second) - (a.second - o.second) * (b.first - o.first);
+}
+
+/// Replaces points by their convex hull, counter-clockwise (monotone chain); equal points may be there.
+void keep_hull(std::vector<Planar>& points, std::vector<Planar>& hull) {
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return;
+  hull.clear();
+  const auto extend = [&hull](const Planar& p, std::size_t floor) {
+    while (hull.size() >= floor + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0.0) hull.pop_back();
+    hull.push_back(p);
+  };
+  for (const Planar& p : points) extend(p, 0);
+  const std::size_t upper = hull.size() - 1;
+  for (std::size_t i = points.size() - 1; i-- > 0;) extend(points[i], upper);
+  hull.pop_back();
+  points.swap(hull);
+}
+
+/// Distance of the origin, which is one of the points, to their hull's border.
+double hull_depth(const std::vector<Planar>& hull, Planar& nearest) {
+  nearest = {0.0, 0.0};
+  if (hull.size() < 3) return 0.0;
+  double depth = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Planar& a = hull[i];
+    const Planar& b = hull[(i + 1) % hull.size()];
+    const double ex = b.first - a.first, ey = b.second - a.second;
+    const double length2 = ex * ex + ey * ey;
+    const double area = a.first * ey - a.second * ex;  // Twice the signed area of the triangle with the origin.
+    const double distance = std::fabs(area) / std::sqrt(length2);
+    if (distance >= depth) continue;
+    depth = distance;
+    nearest = {area * ey / length2, -area * ex / length2};
+  }
+  return depth;
+}
+
+FittedPlane own_plane(const BallPoints& points, double radius, double gate) {
+  FittedPlane plane = fit_plane(sum_within(points, kFirstDisc));
+  for (const double disc : {kDiscs[0], kDiscs[1], radius, radius}) {
+    const PointSums sums = sum_near_plane(points, std::min(disc, radius), plane, gate);
+    if (sums.n < kLeastLayerPoints) break;
+    plane = fit_plane(sums);
+  }
+  return plane;
+}
+
+}  // namespace
+
+RimShape measure_rim(const BallPoints& points, double radius, double noise, RimScratch& scratch) {
+  RimShape shape;
+  shape.gate = std::max(kLeastGate, kGateDeviations * noise);
+  const FittedPlane plane = own_plane(points, radius, shape.gate);
+  shape.rms = plane.rms;
+  shape.width = plane.middle_rms;
+  shape.offset = std::fabs(plane.offset);
+  scratch.seen.clear();
+  scratch.azimuths.clear();
+  scratch.inverted.clear();
+  double layer = 0.0;
+  double inner = 0.0;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const double x = points.x[i], y = points.y[i], z = points.z[i];
+    const double d2 = x * x + y * y + z * z;
+    const double off = std::fabs(plane.distance(x, y, z));
+    if (d2 > radius * radius || off > shape.gate) continue;
+    layer += 1.0;
+    inner += off <= 0.5 * shape.gate ? 1.0 : 0.0;
+    const double u = plane.e1[0] * x + plane.e1[1] * y + plane.e1[2] * z;
+    const double v = plane.e2[0] * x + plane.e2[1] * y + plane.e2[2] * z;
+    const double reach2 = u * u + v * v;
+    if (reach2 <= kHullRadius * kHullRadius) scratch.seen.emplace_back(u, v);
+    if (reach2 > kLeastOffset * kLeastOffset) {
+      scratch.azimuths.push_back(angle_of(v, u));
+      scratch.inverted.emplace_back(u / reach2, v / reach2);
+    }
+  }
+  shape.count = static_cast<double>(scratch.azimuths.size());
+  shape.inner_share = layer > 0.0 ? inner / layer : 0.0;
+  if (scratch.azimuths.size() < 3) return shape;
+  std::sort(scratch.azimuths.begin(), scratch.azimuths.end());
+  double widest = scratch.azimuths.front() + 2.0 * kPi - scratch.azimuths.back();
+  for (std::size_t i = 1; i < scratch.azimuths.size(); ++i) {
+    widest = std::max(widest, scratch.azimuths[i] - scratch.azimuths[i - 1]);
+  }
+  shape.gap_deg = widest * kDegreesPerRadian;
+  // Inversion turns discs that touch the centre into half-planes: the largest empty one is where the hull of the
+  // inverted points comes closest to the centre.
+  scratch.inverted.emplace_back(0.0, 0.0);
+  keep_hull(scratch.inverted, scratch.hull);
+  Planar unused;
+  const double inverse_diameter = hull_depth(scratch.inverted, unused);
+  shape.empty_radius = inverse_diameter > 0.5 / kMostEmptyRadius ? 0.5 / inverse_diameter : kMostEmptyRadius;
+  scratch.seen.emplace_back(0.0, 0.0);
+  keep_hull(scratch.seen, scratch.hull);
+  Planar nearest;
+  shape.depth = hull_depth(scratch.seen, nearest);
+  for (int axis = 0; axis < 3; ++axis) {
+    shape.nearest[axis] =
+        plane.offset * plane.normal[axis] + nearest.first * plane.e1[axis] + nearest.second * plane.e2[axis];
+  }
+  return shape;
+}
+
+}  // namespace arris
