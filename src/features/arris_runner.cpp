@@ -65,8 +65,8 @@ class ArrisRunner::Balls : public BallProvider {
 ArrisRunner::ArrisRunner(const ArrisTask& task)
     : task_(task),
       neighbour_search_(task.tree, {kSpacingNeighbours, task.max_reach, task.max_d2, Arithmetic::kFloat}),
-      ball_search_(task.tree, Arithmetic::kFloat),
-      wide_search_(task.tree, Arithmetic::kFloat) {}
+      ball_search_(task.tree, Arithmetic::kFloat, BallSearch::Exact::kSums),
+      wide_search_(task.tree, Arithmetic::kFloat, BallSearch::Exact::kSquares) {}
 
 void ArrisRunner::run(std::span<const std::uint32_t> slots) {
   balls_.clear();

@@ -22,16 +22,16 @@ struct SumProducts {
     V sums[kTerms][kTerms]{};
     for (std::size_t i = 0; i < p.padded_count(); i += Bytes / sizeof(double)) {
       const V x = simd::load<V>(p.x.data() + i);
-      const auto real = x < BallPoints::kPaddingCoordinate;
+      const V real = simd::where_above(V{} + BallPoints::kPaddingCoordinate, x);
       const V y = simd::load<V>(p.y.data() + i);
       const V z = simd::load<V>(p.z.data() + i);
       V t = line.direction[0] * x + line.direction[1] * y + line.direction[2] * z;
       V v = across[0] * x + across[1] * y + across[2] * z;
       V w = line.opening[0] * x + line.opening[1] * y + line.opening[2] * z;
-      t = on_grid<kRegressorBits>(real ? t : V{});
-      v = on_grid<kRegressorBits>(real ? v : V{});
-      w = on_grid<kOffsetBits>(real ? w : V{});
-      const V terms[kTerms] = {real ? V{} + 1.0 : V{}, v, t, v * v, t * t, w};
+      t = on_grid<kRegressorBits>(real * t);
+      v = on_grid<kRegressorBits>(real * v);
+      w = on_grid<kOffsetBits>(real * w);
+      const V terms[kTerms] = {real, v, t, v * v, t * t, w};
       for (int a = 0; a < kTerms; ++a) {
         for (int b = 0; b <= a; ++b) sums[a][b] += terms[a] * terms[b];
       }

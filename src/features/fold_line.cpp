@@ -61,10 +61,10 @@ struct SumArms {
     Sums<V> sums[2];
     for (std::size_t i = 0; i < p.padded_count(); i += Bytes / sizeof(double)) {
       const V px = simd::load<V>(p.x.data() + i);
-      const auto real = px < BallPoints::kPaddingCoordinate;
-      const V x = (real ? px : V{}) - f.origin[0];
-      const V y = (real ? simd::load<V>(p.y.data() + i) : V{}) - f.origin[1];
-      const V z = (real ? simd::load<V>(p.z.data() + i) : V{}) - f.origin[2];
+      const V real = simd::where_above(V{} + BallPoints::kPaddingCoordinate, px);
+      const V x = real * px - f.origin[0];
+      const V y = real * simd::load<V>(p.y.data() + i) - f.origin[1];
+      const V z = real * simd::load<V>(p.z.data() + i) - f.origin[2];
       const V t = on_grid<kRegressorBits>(f.t[0] * x + f.t[1] * y + f.t[2] * z);
       V u[2], w[2], off[2];
       for (int k = 0; k < 2; ++k) {
@@ -72,10 +72,13 @@ struct SumArms {
         w[k] = on_grid<kOffsetBits>(f.normal[k][0] * x + f.normal[k][1] * y + f.normal[k][2] * z);
         off[k] = w[k] - surfaces[k].at(u[k], t);
       }
-      const auto in_a = real & (off[0] < off[1]);
-      const auto in_b = real & ~(off[0] < off[1]);
-      add(in_a & (off[0] <= gate) & (off[0] >= -gate), t, u[0], w[0], sums[0]);
-      add(in_b & (off[1] <= gate) & (off[1] >= -gate), t, u[1], w[1], sums[1]);
+      const V in_a = real * simd::where_above(off[1], off[0]);
+      V near[2];
+      for (int k = 0; k < 2; ++k) {
+        near[k] = simd::where_at_most(off[k] * off[k], gate * gate);
+      }
+      add(in_a * near[0], t, u[0], w[0], sums[0]);
+      add((real - in_a) * near[1], t, u[1], w[1], sums[1]);
     }
     for (int k = 0; k < 2; ++k) {
       double total[14];
@@ -84,13 +87,14 @@ struct SumArms {
     }
   }
 
-  template <class Mask, class V>
-  static ARRIS_ALWAYS_INLINE void add(const Mask& in, V t, V u, V w, Sums<V>& s) {
-    t = in ? t : V{};
-    u = in ? u : V{};
-    w = in ? w : V{};
+  /// `weight` is 0 or 1.
+  template <class V>
+  static ARRIS_ALWAYS_INLINE void add(const V& weight, V t, V u, V w, Sums<V>& s) {
+    t *= weight;
+    u *= weight;
+    w *= weight;
     const V t2 = t * t;
-    s.v[0] += in ? V{} + 1.0 : V{};
+    s.v[0] += weight;
     s.v[1] += u;
     s.v[2] += t;
     s.v[3] += t2;

@@ -169,10 +169,13 @@ struct Ball {
 /// The points in balls that are close together. Not thread-safe.
 class BallSearch {
  public:
-  BallSearch(const PointTree& tree, Arithmetic narrowest) : tree_(tree), narrowest_(narrowest) {}
+  /// What must be exact in the T of the candidates.
+  enum class Exact : std::uint8_t { kSquares, kSums };
 
-  /// Calls use(candidates, ball query, ball) once per ball, in any order, with a CandidateSet<T> whose sums over the
-  /// ball are exact in T. Reorders `balls`.
+  BallSearch(const PointTree& tree, Arithmetic narrowest, Exact exact)
+      : tree_(tree), narrowest_(narrowest), exact_(exact) {}
+
+  /// Calls use(candidates, ball query, ball) once per ball, in any order, with a CandidateSet<T>. Reorders `balls`.
   template <class Use>
   void run(std::vector<Ball>& balls, Use&& use) {
     // Balls of one size together; the few large ones would only burden the others.
@@ -206,7 +209,7 @@ class BallSearch {
     if ((reach + 1.0) * (reach + 1.0) >= kExactSquares<T>) return false;
     const ClosedBox box = detail::box_of(tree_, balls, [](const Ball& ball) { return ball.slot; });
     if (!candidates.gather(tree_, box, reach)) return false;
-    if (!ball_sums_are_exact<T>(reach, candidates.count)) return false;
+    if (exact_ == Exact::kSums && !ball_sums_are_exact<T>(reach, candidates.count)) return false;
     for (const Ball& ball : balls) {
       BallQuery<T> query;
       query.x = static_cast<T>(tree_.x()[ball.slot] - candidates.origin[0]);
@@ -220,6 +223,7 @@ class BallSearch {
 
   const PointTree& tree_;
   Arithmetic narrowest_;
+  Exact exact_;
   CandidateSet<float> floats_;
   CandidateSet<double> doubles_;
   CandidateSet<std::int64_t> integers_;

@@ -10,7 +10,7 @@ namespace arris {
 LiuRunner::LiuRunner(const LiuTask& task)
     : task_(task),
       neighbour_search_(task.tree, task.settings.limits()),
-      ball_search_(task.tree, task.settings.switches.narrowest) {}
+      ball_search_(task.tree, task.settings.switches.narrowest, BallSearch::Exact::kSums) {}
 
 void LiuRunner::run(std::span<const std::uint32_t> slots) {
   balls_.clear();

@@ -1,6 +1,7 @@
 #include "features/rim_shape.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -22,6 +23,25 @@ constexpr double kHullRadius = 4.0;
 
 /// Larger empty discs are not told apart.
 constexpr double kMostEmptyRadius = 100.0;
+
+/// Azimuths fall into 32 bins of the pseudo-angle v / (|u| + |v|), 8 per quadrant. A quarter turn is 8 bins wherever it
+/// begins, and what 105 degrees have beyond it is more than one bin: such a gap leaves 8 bins in a row empty.
+constexpr double kBinsPerQuadrant = 8.0;
+constexpr double kLeastGap_deg = 105.0;
+
+std::uint32_t azimuth_bin(double u, double v) {
+  const double share = kBinsPerQuadrant * std::fabs(v) / (std::fabs(u) + std::fabs(v));
+  const double turned = v >= 0.0 ? (u >= 0.0 ? share : 16.0 - share) : (u < 0.0 ? 16.0 + share : 32.0 - share);
+  return std::uint32_t{1} << (static_cast<unsigned>(turned) & 31U);
+}
+
+bool may_have_gap(std::uint32_t occupied) {
+  std::uint32_t empty = ~occupied;
+  empty &= std::rotl(empty, 1);
+  empty &= std::rotl(empty, 2);
+  empty &= std::rotl(empty, 4);
+  return empty != 0;
+}
 
 using Planar = std::pair<double, double>;
 
@@ -87,6 +107,7 @@ RimShape measure_rim(const BallPoints& points, double radius, double noise, RimS
   scratch.seen.clear();
   scratch.azimuths.clear();
   scratch.inverted.clear();
+  std::uint32_t occupied = 0;
   double layer = 0.0;
   double inner = 0.0;
   for (std::size_t i = 0; i < points.count; ++i) {
@@ -101,19 +122,25 @@ RimShape measure_rim(const BallPoints& points, double radius, double noise, RimS
     const double reach2 = u * u + v * v;
     if (reach2 <= kHullRadius * kHullRadius) scratch.seen.emplace_back(u, v);
     if (reach2 > kLeastOffset * kLeastOffset) {
-      scratch.azimuths.push_back(angle_of(v, u));
-      scratch.inverted.emplace_back(u / reach2, v / reach2);
+      occupied |= azimuth_bin(u, v);
+      scratch.inverted.emplace_back(u, v);
     }
   }
-  shape.count = static_cast<double>(scratch.azimuths.size());
+  shape.count = static_cast<double>(scratch.inverted.size());
   shape.inner_share = layer > 0.0 ? inner / layer : 0.0;
-  if (scratch.azimuths.size() < 3) return shape;
+  if (scratch.inverted.size() < 3 || !may_have_gap(occupied)) return shape;
+  for (Planar& p : scratch.inverted) {
+    scratch.azimuths.push_back(angle_of(p.second, p.first));
+    const double reach2 = p.first * p.first + p.second * p.second;
+    p = {p.first / reach2, p.second / reach2};
+  }
   std::sort(scratch.azimuths.begin(), scratch.azimuths.end());
   double widest = scratch.azimuths.front() + 2.0 * kPi - scratch.azimuths.back();
   for (std::size_t i = 1; i < scratch.azimuths.size(); ++i) {
     widest = std::max(widest, scratch.azimuths[i] - scratch.azimuths[i - 1]);
   }
   shape.gap_deg = widest * kDegreesPerRadian;
+  if (shape.gap_deg < kLeastGap_deg) return shape;
   // Inversion turns discs that touch the centre into half-planes: the largest empty one is where the hull of the
   // inverted points comes closest to the centre.
   scratch.inverted.emplace_back(0.0, 0.0);

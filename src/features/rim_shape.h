@@ -34,6 +34,7 @@ struct RimScratch {
 /// the set of points only. O(n log n) in the layer's points.
 /// @param radius  of the disc that is judged, at most the ball's.
 /// @param noise   standard deviation of the points about their surface.
+/// Gaps of less than 105 degrees are no rim: then depth and empty_radius are left at 0, and mostly the gap too.
 RimShape measure_rim(const BallPoints& points, double radius, double noise, RimScratch& scratch);
 
 }  // namespace arris

@@ -58,7 +58,9 @@ TEST(Behaviour, UsageErrors_ExitWith2AndOneLine) {
                                                     {"extract", in},
                                                     {"extract", in, "-o", folder / "out.xyz"},
                                                     {"extract", in, "-o", folder / "o.las", "--memory", "lots"},
-                                                    {"extract", in, "-o", folder / "o.las", "--k-min", "50"},
+                                                    {"extract", in, "-o", folder / "o.las", "--method", "liu", "--k-min", "50"},
+                                                    {"extract", in, "-o", folder / "o.las", "--alpha", "100"},
+                                                    {"extract", in, "-o", folder / "o.las", "--precision", "1.5"},
                                                     {"extract", in, "-o", folder / "o.las", "--tile-points", "0"},
                                                     {"extract", in, "-o", folder / "o.las", "--radius", "5 parsec"},
                                                     {"extract", in, "-o", in, "--overwrite"}};
@@ -242,12 +244,13 @@ TEST(Behaviour, JsonProgress_IsOneObjectALine) {
 TEST(Behaviour, ConfigFile_SetsOptionsAndTheCommandLineWins) {
   const TempFolder folder;
   write_las(folder / "in.las", plate(30));
-  write_bytes(folder / "f.toml", "k-min = 25\nalpha = 100\n");
+  write_bytes(folder / "f.toml", "method = \"liu\"\nk-min = 25\nalpha = 100\n");
   ASSERT_EQ(run_arris({"extract", folder / "in.las", "-o", folder / "out.las", "--config", folder / "f.toml", "--alpha",
                        "110", "--report", folder / "r.json"})
                 .exit_code,
             0);
   const auto report = nlohmann::json::parse(file_bytes(folder / "r.json"));
+  EXPECT_EQ(report["method"], "liu");
   EXPECT_EQ(report["parameters"]["k_min"], 25);
   EXPECT_EQ(report["parameters"]["gap_deg"], 110.0);
 }

@@ -7,14 +7,15 @@
 namespace arris::test {
 namespace {
 
-/// A square of 40 x 40 points, 10 steps apart, with a wall of points over its middle column.
+/// A square of 40 x 40 points, 10 steps apart, with a wall of points over its last column: what is a boundary without
+/// the wall is a fold with it.
 std::vector<std::array<std::int32_t, 3>> square_with_wall(bool wall) {
   std::vector<std::array<std::int32_t, 3>> points;
   for (int i = 0; i < 40; ++i) {
     for (int j = 0; j < 40; ++j) points.push_back({10 * i, 10 * j, 0});
   }
   for (int j = 0; wall && j < 40; ++j) {
-    for (int k = 1; k < 20; ++k) points.push_back({200, 10 * j, 10 * k});
+    for (int k = 1; k < 20; ++k) points.push_back({390, 10 * j, 10 * k});
   }
   return points;
 }
