@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/columns.h"
+#include "features/contour_finish.h"
 #include "features/local_spacing.h"
 
 namespace arris {
@@ -144,17 +145,30 @@ void ArrisRunner::test(const CandidateSet<T>& candidates, const BallQuery<T>& qu
     return;
   }
   if (contour.kind == PointContour::Kind::kNone || contour.score < task_.parameters.min_score) return;
-  record(ball, contour, points_[0]);
+  if (task_.parameters.thin && !leads_chain(points_[0], contour)) return;
+  record(ball, contour);
 }
 
-void ArrisRunner::record(const Ball& ball, const PointContour& contour, const BallPoints&) {
+std::uint8_t ArrisRunner::side_of(std::uint32_t slot, const FoldLine& line) const {
+  using View = ArrisParameters::View;
+  if (task_.parameters.view == View::kNone) return 0;
+  if (task_.parameters.view == View::kAbove) return fold_side(line, {0.0, 0.0, 1.0});
+  const LatticePoint p = task_.tree.position(slot);
+  Vector3 view;
+  for (int axis = 0; axis < 3; ++axis) {
+    view[axis] = task_.parameters.viewpoint[axis] - task_.lattice.world(axis, p[axis]);
+  }
+  return fold_side(line, view);
+}
+
+void ArrisRunner::record(const Ball& ball, const PointContour& contour) {
   const double spacing = spacings_[ball.query] * task_.lattice.step;
   ContourRecord record;
   record.id = task_.tree.id(ball.slot);
   record.score = static_cast<float>(contour.score);
   for (int axis = 0; axis < 3; ++axis) record.to_edge[axis] = static_cast<float>(contour.nearest[axis] * spacing);
   if (contour.kind == PointContour::Kind::kFold) {
-    record.classes = kFold;
+    record.classes = static_cast<std::uint8_t>(kFold | side_of(ball.slot, contour.line));
     record.fold_angle_deg = static_cast<float>(contour.line.angle_deg);
     record.fold_strength = 1.0F;
   } else {

@@ -47,7 +47,8 @@ class ArrisRunner {
   void use_neighbours(std::uint32_t slot, const Neighbours& neighbours);
   template <class T>
   void test(const CandidateSet<T>& candidates, const BallQuery<T>& query, const Ball& ball);
-  void record(const Ball& ball, const PointContour& contour, const BallPoints& points);
+  void record(const Ball& ball, const PointContour& contour);
+  std::uint8_t side_of(std::uint32_t slot, const FoldLine& line) const;
   bool seen(std::uint32_t slot, double reach) const;
   void leave_unproven(std::uint32_t slot, double reach);
 

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 namespace arris {
 namespace {
 
 constexpr int kRounds = 3;
+/// Of the starts, so many best ones after the first round are followed to the end.
+constexpr int kFollowedStarts = 2;
 /// Points farther from their arm than this many rms, but at least so many spacings, are left out of the next fit.
 constexpr double kGateDeviations = 2.5;
 constexpr double kLeastGate = 0.3;
@@ -53,21 +57,21 @@ bool parallel_within(const FittedPlane& a, const FittedPlane& b, double radius) 
   return distance2 > radius * radius;
 }
 
-bool improve(const BallPoints& points, PlanePair& pair) {
-  double gate = 0.0;
-  for (int round = 0; round < kRounds; ++round) {
-    const SplitSums sums =
-        round == 0 ? sum_split(points, pair.split) : sum_split(points, pair.split, pair.a, pair.b, gate);
-    if (sums.a.n < kLeastArmPoints || sums.b.n < kLeastArmPoints) return false;
-    pair.a = fit_plane(sums.a);
-    pair.b = fit_plane(sums.b);
-    const double square =
-        (pair.a.rms * pair.a.rms * sums.a.n + pair.b.rms * pair.b.rms * sums.b.n) / (sums.a.n + sums.b.n);
-    gate = std::max(kGateDeviations * std::sqrt(square), kLeastGate);
-    if (!bisect(pair.a, pair.b, pair.split)) return false;
-  }
-  return true;
+/// Fits both planes to the sums of their sides and splits at their bisector.
+/// @param square  mean squared distance of the points to the plane of their side.
+bool refit(const SplitSums& sums, PlanePair& pair, double& square) {
+  if (sums.a.n < kLeastArmPoints || sums.b.n < kLeastArmPoints) return false;
+  pair.a = fit_plane(sums.a);
+  pair.b = fit_plane(sums.b);
+  square = (pair.a.rms * pair.a.rms * sums.a.n + pair.b.rms * pair.b.rms * sums.b.n) / (sums.a.n + sums.b.n);
+  return bisect(pair.a, pair.b, pair.split);
 }
+
+struct Start {
+  PlanePair pair;
+  double square = std::numeric_limits<double>::infinity();  ///< After the first round; infinite: given up.
+  bool along_plane = false;
+};
 
 }  // namespace
 
@@ -78,16 +82,31 @@ PlanePair fit_plane_pair(const BallPoints& points, double radius, const FittedPl
     starts[2].g[axis] = diagonal * (all.e1[axis] + all.e2[axis]);
     starts[3].g[axis] = diagonal * (all.e1[axis] - all.e2[axis]);
   }
+  Start ways[5];
+  for (int i = 0; i < 5; ++i) {
+    Start& way = ways[i];
+    way.pair.split = starts[i];
+    way.along_plane = i == 4;
+    double square = 0.0;
+    if (refit(sum_split(points, way.pair.split), way.pair, square)) way.square = square;
+  }
+  std::stable_sort(std::begin(ways), std::end(ways),
+                   [](const Start& a, const Start& b) { return a.square < b.square; });
   PlanePair best;
-  for (int start = 0; start < 5; ++start) {
-    PlanePair pair;
-    pair.split = starts[start];
-    if (!improve(points, pair)) continue;
+  for (int i = 0; i < kFollowedStarts && std::isfinite(ways[i].square); ++i) {
+    PlanePair& pair = ways[i].pair;
+    double square = ways[i].square;
+    bool alive = true;
+    for (int round = 1; round < kRounds && alive; ++round) {
+      const double gate = std::max(kGateDeviations * std::sqrt(square), kLeastGate);
+      alive = refit(sum_split(points, pair.split, pair.a, pair.b, gate), pair, square);
+    }
+    if (!alive) continue;
     pair.rms = std::sqrt(mean_cut_square(points, pair.split, pair.a, pair.b, kMostDistance));
     pair.kind = PlanePair::Kind::kArms;
     if (parallel_within(pair.a, pair.b, radius)) {
       const double apart = std::fabs(pair.a.distance(pair.b.centroid[0], pair.b.centroid[1], pair.b.centroid[2]));
-      if (start != 4 || pair.rms > kLayerRms * apart) continue;
+      if (!ways[i].along_plane || pair.rms > kLayerRms * apart) continue;
       pair.kind = PlanePair::Kind::kLayers;
     }
     if (best.kind == PlanePair::Kind::kNone || pair.rms < best.rms) best = pair;

@@ -116,6 +116,7 @@ bool judge_rim(const RimShape& rim, PointContour& contour) {
   contour.kind = PointContour::Kind::kBoundary;
   contour.gap_deg = rim.gap_deg;
   contour.nearest = rim.nearest;
+  contour.direction = rim.direction;
   contour.score = 1.0;
   return true;
 }

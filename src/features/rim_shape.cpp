@@ -66,9 +66,10 @@ void keep_hull(std::vector<Planar>& points, std::vector<Planar>& hull) {
   points.swap(hull);
 }
 
-/// Distance of the origin, which is one of the points, to their hull's border.
-double hull_depth(const std::vector<Planar>& hull, Planar& nearest) {
+/// Distance of the origin, which is one of the points, to their hull's border, and the direction of that border.
+double hull_depth(const std::vector<Planar>& hull, Planar& nearest, Planar& along) {
   nearest = {0.0, 0.0};
+  along = {1.0, 0.0};
   if (hull.size() < 3) return 0.0;
   double depth = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -81,6 +82,7 @@ double hull_depth(const std::vector<Planar>& hull, Planar& nearest) {
     if (distance >= depth) continue;
     depth = distance;
     nearest = {area * ey / length2, -area * ex / length2};
+    along = {ex / std::sqrt(length2), ey / std::sqrt(length2)};
   }
   return depth;
 }
@@ -145,14 +147,14 @@ RimShape measure_rim(const BallPoints& points, double radius, double noise, RimS
   // inverted points comes closest to the centre.
   scratch.inverted.emplace_back(0.0, 0.0);
   keep_hull(scratch.inverted, scratch.hull);
-  Planar unused;
-  const double inverse_diameter = hull_depth(scratch.inverted, unused);
+  Planar nearest, along;
+  const double inverse_diameter = hull_depth(scratch.inverted, nearest, along);
   shape.empty_radius = inverse_diameter > 0.5 / kMostEmptyRadius ? 0.5 / inverse_diameter : kMostEmptyRadius;
   scratch.seen.emplace_back(0.0, 0.0);
   keep_hull(scratch.seen, scratch.hull);
-  Planar nearest;
-  shape.depth = hull_depth(scratch.seen, nearest);
+  shape.depth = hull_depth(scratch.seen, nearest, along);
   for (int axis = 0; axis < 3; ++axis) {
+    shape.direction[axis] = along.first * plane.e1[axis] + along.second * plane.e2[axis];
     shape.nearest[axis] =
         plane.offset * plane.normal[axis] + nearest.first * plane.e1[axis] + nearest.second * plane.e2[axis];
   }

@@ -53,17 +53,18 @@ TEST(Behaviour, UsageErrors_ExitWith2AndOneLine) {
   const TempFolder folder;
   write_las(folder / "in.las", plate(10));
   const std::string in = folder / "in.las";
-  const std::vector<std::vector<std::string>> wrong{{},
-                                                    {"nonsense"},
-                                                    {"extract", in},
-                                                    {"extract", in, "-o", folder / "out.xyz"},
-                                                    {"extract", in, "-o", folder / "o.las", "--memory", "lots"},
-                                                    {"extract", in, "-o", folder / "o.las", "--method", "liu", "--k-min", "50"},
-                                                    {"extract", in, "-o", folder / "o.las", "--alpha", "100"},
-                                                    {"extract", in, "-o", folder / "o.las", "--precision", "1.5"},
-                                                    {"extract", in, "-o", folder / "o.las", "--tile-points", "0"},
-                                                    {"extract", in, "-o", folder / "o.las", "--radius", "5 parsec"},
-                                                    {"extract", in, "-o", in, "--overwrite"}};
+  const std::vector<std::vector<std::string>> wrong{
+      {},
+      {"nonsense"},
+      {"extract", in},
+      {"extract", in, "-o", folder / "out.xyz"},
+      {"extract", in, "-o", folder / "o.las", "--memory", "lots"},
+      {"extract", in, "-o", folder / "o.las", "--method", "liu", "--k-min", "50"},
+      {"extract", in, "-o", folder / "o.las", "--alpha", "100"},
+      {"extract", in, "-o", folder / "o.las", "--precision", "1.5"},
+      {"extract", in, "-o", folder / "o.las", "--tile-points", "0"},
+      {"extract", in, "-o", folder / "o.las", "--radius", "5 parsec"},
+      {"extract", in, "-o", in, "--overwrite"}};
   for (const auto& arguments : wrong) {
     const ProcessResult run = run_arris(arguments);
     EXPECT_EQ(run.exit_code, 2) << run.err;

@@ -1,3 +1,5 @@
+/// @file The law of exact tiling, held up by the default method.
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,35 +23,46 @@ TEST(ExactTiling, PointsOnTileFaces_SameBytes) {
 
 TEST(ExactTiling, SyntheticBlock_SameBytes) {
   const TempFolder folder;
-  ASSERT_EQ(run_arris({"synth", "block", "--spacing", "0.25", "--noise", "0.05", "--seed", "3", "-o",
-                       folder / "scan.las", "--truth", folder / "truth.csv"})
-                .exit_code,
-            0);
+  synth_scan(folder / "scan.las", {"block", "--spacing", "0.25", "--noise", "0.05", "--seed", "3"});
   expect_same_bytes(folder / "scan.las", small_matrix(), 10);
+}
+
+// Noise of 0.8 spacings: the widest balls, many of them answered from the neighbours' files.
+TEST(ExactTiling, NoisyBlock_SameBytes) {
+  const TempFolder folder;
+  synth_scan(folder / "scan.las", {"block", "--spacing", "0.6", "--noise", "0.48", "--seed", "3"});
+  expect_same_bytes(folder / "scan.las", least_matrix(), 10, {"--refined"});
+}
+
+TEST(ExactTiling, RefinedPositions_SameBytes) {
+  const TempFolder folder;
+  synth_scan(folder / "scan.las", {"stairs", "--spacing", "0.03", "--noise", "0.006", "--seed", "3"});
+  expect_same_bytes(folder / "scan.las", least_matrix(), 10, {"--refined"});
+}
+
+TEST(ExactTiling, ThinnedChains_SameBytes) {
+  const TempFolder folder;
+  synth_scan(folder / "scan.las", {"plates", "--spacing", "0.1", "--noise", "0.02", "--seed", "3"});
+  expect_same_bytes(folder / "scan.las", least_matrix(), 10, {"--thin"});
+}
+
+TEST(ExactTiling, Duplicates_SameBytes) {
+  const TempFolder folder;
+  write_duplicates(folder / "twice.las");
+  expect_same_bytes(folder / "twice.las", small_matrix(), 20);
 }
 
 TEST(ExactTiling, SimulatedTown_SameBytes) {
   const TempFolder folder;
-  ASSERT_EQ(run_arris({"synth", "town", "--points", "150000", "--noise", "2mm", "--seed", "4", "-o",
-                       folder / "scan.las", "--truth", folder / "truth.csv"})
-                .exit_code,
-            0);
+  synth_scan(folder / "scan.las", {"town", "--points", "150000", "--noise", "2mm", "--seed", "4"});
   expect_same_bytes(folder / "scan.las", small_matrix(), 10);
 }
 
 // A LAS file of another scale, a PLY and a LAS of the usual kind, with every third point excluded by its class.
 TEST(ExactTiling, MixedLayoutsAndExclusions_SameBytes) {
-  const TempFolder folder;
   const TempFolder scans;
-  const auto synth = [&](const char* name, const char* seed, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{
-        "synth",      "block",   "--spacing",          "0.4",        "--noise", "0.05", "--seed", seed, "-o",
-        scans / name, "--truth", folder / "truth.csv", "--overwrite"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    ASSERT_EQ(run_arris(arguments).exit_code, 0);
-  };
-  synth("a.las", "1", {});
-  synth("b.ply", "2", {});
+  synth_scan(scans / "a.las", {"block", "--spacing", "0.4", "--noise", "0.05", "--seed", "1"});
+  synth_scan(scans / "b.ply", {"block", "--spacing", "0.4", "--noise", "0.05", "--seed", "2"});
   std::vector<std::array<std::int32_t, 3>> points;
   for (std::int32_t x = -200; x < 200; ++x) {
     for (std::int32_t y = -200; y < 200; ++y) points.push_back({x * 7, y * 7, 900});
@@ -66,18 +79,9 @@ TEST(ExactTiling, AirborneScan_SameBytes) {
   expect_same_bytes(scan, {{"20000", 2, "256MiB", true}, {"none", 1, "", false}, {"100000", 4, "1GiB", true}}, 2);
 }
 
-// Thin spray beside a dense plate: sparse queries need more than their tile's halo and are answered from the
-// neighbours' files.
 TEST(ExactTiling, SparsePointsBesideDenseTiles_AreWidenedToTheSameBytes) {
   const TempFolder folder;
-  std::vector<std::array<std::int32_t, 3>> points;
-  for (std::int32_t x = 0; x < 220; ++x) {
-    for (std::int32_t y = 0; y < 220; ++y) points.push_back({x * 10, y * 10, (x + y) % 3});
-  }
-  std::uint32_t random = 1;
-  const auto next = [&] { return static_cast<std::int32_t>((random = random * 1664525U + 1013904223U) >> 20); };
-  for (int i = 0; i < 600; ++i) points.push_back({next() % 2200, next() % 2200, 40 + next() % 400});
-  write_las(folder / "spray.las", points);
+  write_spray(folder / "spray.las");
   ASSERT_EQ(run_arris({"extract", folder / "spray.las", "-o", folder / "out.las", "-q", "--tile-points", "3000",
                        "--report", folder / "report.json"})
                 .exit_code,

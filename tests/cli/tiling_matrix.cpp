@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <set>
 
 #include "support/arris_process.h"
@@ -36,6 +37,10 @@ std::vector<TilingCase> whole_matrix() {
 std::vector<TilingCase> small_matrix() {
   return {{"none", 1, "", false},        {"20000", 2, "256MiB", true}, {"20000", 4, "1GiB", false},
           {"100000", 1, "256MiB", true}, {"100000", 2, "", false},     {"1000000", 4, "1GiB", true}};
+}
+
+std::vector<TilingCase> least_matrix() {
+  return {{"none", 1, "", false}, {"20000", 2, "256MiB", true}, {"100000", 4, "1GiB", false}};
 }
 
 void expect_same_bytes(const std::filesystem::path& scan, const std::vector<TilingCase>& cases, int caps_divisor,
@@ -71,6 +76,41 @@ void expect_same_bytes(const std::filesystem::path& scan, const std::vector<Tili
     }
     EXPECT_TRUE(bytes == expected) << "output differs: " << what;
   }
+}
+
+void synth_scan(const std::filesystem::path& path, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "synth");
+  arguments.insert(arguments.end(), {"-o", path, "--truth", path.string() + ".truth.csv", "--overwrite", "-q"});
+  const ProcessResult made = run_arris(arguments);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  std::filesystem::remove(path.string() + ".truth.csv");
+}
+
+void write_spray(const std::filesystem::path& path) {
+  std::vector<std::array<std::int32_t, 3>> points;
+  for (std::int32_t x = 0; x < 220; ++x) {
+    for (std::int32_t y = 0; y < 220; ++y) points.push_back({x * 10, y * 10, (x + y) % 3});
+  }
+  std::uint32_t random = 1;
+  const auto next = [&] { return static_cast<std::int32_t>((random = random * 1664525U + 1013904223U) >> 20); };
+  for (int i = 0; i < 600; ++i) points.push_back({next() % 2200, next() % 2200, 40 + next() % 400});
+  write_las(path, points);
+}
+
+void write_duplicates(const std::filesystem::path& path) {
+  std::vector<std::array<std::int32_t, 3>> points;
+  std::uint32_t random = 7;
+  const auto next = [&] { return static_cast<std::int32_t>((random = random * 1664525U + 1013904223U) >> 20); };
+  for (std::int32_t x = -64; x < 64; ++x) {
+    for (std::int32_t y = 0; y < 64; ++y) {
+      points.push_back({x * 16 + next() % 8, y * 16 + next() % 8, 8 * std::abs(2 * x) + next() % 8});
+    }
+  }
+  const std::size_t once = points.size();
+  for (const std::size_t every : {2U, 3U}) {
+    for (std::size_t i = 0; i < once; i += every) points.push_back(points[i]);
+  }
+  write_las(path, points);
 }
 
 void write_points_on_tile_faces(const std::filesystem::path& path) {

@@ -19,6 +19,8 @@ struct TilingCase {
 std::vector<TilingCase> whole_matrix();
 /// Each value of each dimension at least twice.
 std::vector<TilingCase> small_matrix();
+/// One run untiled, one with everything different, one between.
+std::vector<TilingCase> least_matrix();
 
 /// Runs extract for every case and expects one and the same output, with contour points in it. `caps_divisor` makes
 /// tiles smaller for small clouds.
@@ -26,6 +28,16 @@ std::vector<TilingCase> small_matrix();
 /// @param options  more options of extract.
 void expect_same_bytes(const std::filesystem::path& scan, const std::vector<TilingCase>& cases, int caps_divisor = 1,
                        const std::vector<std::string>& options = {});
+
+/// `arris synth ARGUMENTS... -o PATH` with the truth thrown away.
+void synth_scan(const std::filesystem::path& path, std::vector<std::string> arguments);
+
+/// A dense plate beside thin spray: sparse queries need more than their tile's halo and are answered from the
+/// neighbours' files.
+void write_spray(const std::filesystem::path& path);
+
+/// A noisy fold whose points come once, twice or three times, the copies far apart in the file.
+void write_duplicates(const std::filesystem::path& path);
 
 /// A closed surface of boxes whose faces, edges and corners lie on multiples of 64 lattice steps, where tiles are cut.
 void write_points_on_tile_faces(const std::filesystem::path& path);
