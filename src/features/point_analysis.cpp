@@ -9,10 +9,16 @@
 namespace arris {
 namespace {
 
+/// No fold has an rms about one plane above 1.2 in the first ball, 1.5 with noise of 0.8: this is a volume or layers.
+constexpr double kVolumeRms = 1.6;
 /// Fold fits below this rms, spacings, need no larger ball.
 constexpr double kQuietRms = 0.1;
 /// Fold fits above this rms on the second ball need the third.
 constexpr double kNoisyRms = 0.45;
+constexpr double kFairRms = 0.3;
+constexpr double kFarLine = 3.0;
+/// The third ball is looked at if two planes explain the second this much better than one.
+constexpr double kPromisingShare = 0.75;
 /// The fit on a larger ball is believed if its rms is at most this multiple of the smaller one's, plus a bit.
 constexpr double kRmsGrowth = 1.4;
 constexpr double kRmsAllowance = 0.03;
@@ -42,12 +48,14 @@ constexpr double kLeastRimWidth = 0.7;
 constexpr double kLeastAzimuths = 8.0;
 constexpr double kLeastInnerShare = 0.7;
 /// Noise that two-plane fits show is partly bad fit; boundaries are judged with at most this much.
+constexpr double kUnknownNoise = 0.3;
 constexpr double kMostRimNoise = 0.5;
 
 struct LevelFit {
   int level = 0;
   bool flat = false;
   bool arms = false;
+  bool layers = false;
   double all_rms = 0.0;
   double all_count = 0.0;
   FoldLine line;
@@ -64,9 +72,8 @@ LevelFit fit_level(const BallPoints& points, int level) {
   fit.flat = all.rms < kFlatRmsOf[level];
   if (fit.flat) return fit;
   const PlanePair pair = fit_plane_pair(points, radius, all);
-  if (pair.kind == PlanePair::Kind::kArms) {
-    fit.arms = refine_fold(points, pair, fit.line);
-  }
+  fit.layers = pair.kind == PlanePair::Kind::kLayers;
+  if (pair.kind == PlanePair::Kind::kArms) fit.arms = refine_fold(points, pair, fit.line);
   return fit;
 }
 
@@ -129,12 +136,14 @@ bool analyse_point(const PointProspects& prospects, BallProvider& balls, Analysi
   const BallPoints* first = balls.ball(0);
   if (first == nullptr) return false;
   if (static_cast<double>(first->count) > kMostBallPoints) return true;
-  double noise = prospects.rms;
-  if (prospects.fold && want_fold) {
+  double noise = prospects.rms < kVolumeRms ? prospects.rms : kUnknownNoise;
+  if (prospects.fold && prospects.rms < kVolumeRms && want_fold) {
     LevelFit best = fit_level(*first, 0);
     const double first_rms = best.arms ? best.line.rms : 1.0;
     bool noisy_plane = false;
-    if (first_rms > kQuietRms) {
+    // A fair fit whose line is far away, or two sheets, will not become a fold at the point in a larger ball.
+    const bool settled = best.layers || (first_rms < kFairRms && best.line.distance > kFarLine);
+    if (first_rms > kQuietRms && !settled) {
       const BallPoints* second = balls.ball(1);
       if (second == nullptr) return false;
       if (first_rms > kNoiseShare * best.all_rms) {
@@ -146,7 +155,8 @@ bool analyse_point(const PointProspects& prospects, BallProvider& balls, Analysi
         const LevelFit wide = fit_level(*second, 1);
         const double second_rms = wide.arms ? wide.line.rms : 1.0;
         if (believable(wide, best)) best = wide;
-        if (first_rms > kNoisyRms && second_rms > kNoisyRms && !wide.flat) {
+        const bool worth_it = wide.arms && second_rms < kPromisingShare * wide.all_rms;
+        if (first_rms > kNoisyRms && second_rms > kNoisyRms && worth_it) {
           const BallPoints* third = balls.ball(2);
           if (third == nullptr) return false;
           const LevelFit widest = fit_level(*third, 2);
@@ -155,7 +165,7 @@ bool analyse_point(const PointProspects& prospects, BallProvider& balls, Analysi
       }
     }
     if (!noisy_plane) {
-      noise = best.flat ? best.all_rms : best.arms ? std::min(best.line.rms, kMostRimNoise) : 0.3;
+      noise = best.flat ? best.all_rms : best.arms ? std::min(best.line.rms, kMostRimNoise) : kUnknownNoise;
       if (best.arms && !best.flat && judge_fold(best, *balls.ball(best.level), contour)) return true;
     }
   }

@@ -14,19 +14,21 @@
 #include "features/liu_engine.h"
 #include "liu_reference.h"
 #include "random_clouds.h"
+#include "tile_laws.h"
 
 namespace arris {
 
-void PrintTo(const ContourRecord& r, std::ostream* out) {
-  *out << "{id " << r.id << " classes " << int{r.classes} << " votes " << r.votes << " gap " << r.gap_deg
-       << " strength " << r.fold_strength << " angle " << r.fold_angle_deg << "}";
-}
-
 namespace {
 
+using test::any;
+using test::anywhere;
 using test::everything;
+using test::expect_equal;
+using test::merge;
+using test::part_of;
 using test::random_positions;
 using test::reference_liu;
+using test::reordered;
 using test::Shape;
 using test::tile_of;
 
@@ -38,12 +40,6 @@ struct Cloud {
   LiuParameters parameters;
   std::uint64_t seed;
 };
-
-/// Uniform whatever the size that RapidCheck is at.
-template <class T>
-T any(T low, T end) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange<T>(low, end));
-}
 
 /// A cloud of `points` points and parameters that find something in it.
 Cloud any_cloud(std::size_t points) {
@@ -67,16 +63,6 @@ Cloud any_cloud(std::size_t points) {
   p.spacing = *rc::gen::element(0.0, 0.0, 0.8) * extent * 0.001 / std::sqrt(static_cast<double>(points));
   RC_CLASSIFY(true, test::name(cloud.shape));
   return cloud;
-}
-
-void expect_equal(const TileContours& a, const TileContours& b) {
-  RC_ASSERT(a.isolated == b.isolated);
-  RC_CLASSIFY(!a.records.empty(), "has contours");
-  RC_ASSERT(a.records.size() == b.records.size());
-  for (std::size_t i = 0; i < a.records.size(); ++i) {
-    if (a.records[i] == b.records[i]) continue;
-    RC_FAIL(testing::PrintToString(a.records[i]) + " is not " + testing::PrintToString(b.records[i]));
-  }
 }
 
 TileContours run(const TilePoints& tile, const LiuParameters& p) {
@@ -112,19 +98,7 @@ RC_GTEST_PROP(LiuMethod, WiderArithmetic_ChangesNothing, ()) {
 
 RC_GTEST_PROP(LiuMethod, Translation_ChangesNothing, ()) {
   const Cloud cloud = any_cloud(400);
-  std::vector<LatticePoint> moved = cloud.positions;
-  LatticeBox box;
-  for (const LatticePoint& p : moved) box.include(p);
-  const auto shift = [&](int axis) {
-    const auto low = static_cast<std::int64_t>(INT32_MIN) - box.min[axis];
-    const auto high = static_cast<std::int64_t>(INT32_MAX) + 1 - box.max[axis];
-    return *rc::gen::element(low, high, any(low, high));  // Up to the very ends of int32.
-  };
-  const std::int64_t by[3] = {shift(0), shift(1), shift(2)};
-  for (LatticePoint& p : moved) {
-    p = {static_cast<std::int32_t>(p.x + by[0]), static_cast<std::int32_t>(p.y + by[1]),
-         static_cast<std::int32_t>(p.z + by[2])};
-  }
+  const std::vector<LatticePoint> moved = anywhere(cloud.positions);
   expect_equal(run(tile_of(cloud.positions, cloud.seed), cloud.parameters),
                run(tile_of(moved, cloud.seed), cloud.parameters));
 }
@@ -132,44 +106,7 @@ RC_GTEST_PROP(LiuMethod, Translation_ChangesNothing, ()) {
 RC_GTEST_PROP(LiuMethod, OrderOfEntries_ChangesNothing, ()) {
   const Cloud cloud = any_cloud(500);
   const TilePoints tile = tile_of(cloud.positions, cloud.seed);
-  std::vector<std::uint32_t> order(tile.positions.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::shuffle(order.begin(), order.end(), std::mt19937_64(cloud.seed));
-  TilePoints shuffled = tile;
-  std::vector<std::uint32_t> now_at(order.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) {
-    shuffled.positions[i] = tile.positions[order[i]];
-    shuffled.ids[i] = tile.ids[order[i]];
-    now_at[order[i]] = i;
-  }
-  for (auto& [id, entry] : shuffled.duplicates) entry = now_at[entry];
-  std::reverse(shuffled.duplicates.begin(), shuffled.duplicates.end());
-  expect_equal(run(tile, cloud.parameters), run(shuffled, cloud.parameters));
-}
-
-/// The points of `tile` inside `core` expanded by `halo`, with what belongs to them.
-TilePoints part_of(const TilePoints& tile, const LatticeBox& core, std::int64_t halo) {
-  TilePoints part;
-  part.core = core;
-  part.covered = core.expanded(halo);
-  std::map<std::uint32_t, std::uint32_t> entry_of;
-  for (std::uint32_t i = 0; i < tile.positions.size(); ++i) {
-    if (!part.covered.contains(tile.positions[i])) continue;
-    entry_of[i] = static_cast<std::uint32_t>(part.positions.size());
-    part.positions.push_back(tile.positions[i]);
-    part.ids.push_back(tile.ids[i]);
-  }
-  for (const auto& [id, entry] : tile.duplicates) {
-    if (entry_of.count(entry)) part.duplicates.emplace_back(id, entry_of[entry]);
-  }
-  return part;
-}
-
-void merge(std::map<std::uint64_t, ContourRecord>& into, const std::vector<ContourRecord>& records) {
-  for (const ContourRecord& record : records) {
-    const auto [found, fresh] = into.try_emplace(record.id, record);
-    if (!fresh) combine(found->second, record);
-  }
+  expect_equal(run(tile, cloud.parameters), run(reordered(tile, cloud.seed), cloud.parameters));
 }
 
 RC_GTEST_PROP(LiuMethod, SplitIntoTiles_MergesToTheWhole, ()) {
@@ -188,12 +125,8 @@ RC_GTEST_PROP(LiuMethod, SplitIntoTiles_MergesToTheWhole, ()) {
     merge(merged, part.records);
     split.isolated += part.isolated;
     for (const UnprovenQuery& query : part.unproven) {
-      // Exactly the reach that was asked for must do, and more must not matter.
-      const LatticeBox around = LatticeBox{{query.position.x, query.position.y, query.position.z},
-                                           {query.position.x + 1LL, query.position.y + 1LL, query.position.z + 1LL}};
-      TilePoints rerun = part_of(whole, around, query.reach_steps);
       RC_ASSERT(query.reach_steps <= static_cast<std::int64_t>(std::ceil(cloud.parameters.max_radius * 1000.0)) + 1);
-      const TileContours again = run(rerun, cloud.parameters);
+      const TileContours again = run(part_of(whole, query), cloud.parameters);
       RC_ASSERT(again.unproven.empty());
       merge(merged, again.records);
       split.isolated += again.isolated;

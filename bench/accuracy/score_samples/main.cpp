@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "candidate.h"
 #include "core/error.h"
@@ -57,6 +59,31 @@ Scan read_scan(const std::string& path) {
   return scan;
 }
 
+/// Factor of the scene's spacing at a place, 1 but for the sampling "gradient" (synth/scene.h) of scenes that are not
+/// rotated: 1 to sqrt(10) along the x that the edges span.
+class SpacingGradient {
+ public:
+  explicit SpacingGradient(const arris::evaluate::Truth& truth) {
+    const auto sampling = truth.properties.find("sampling");
+    if (sampling == truth.properties.end() || sampling->second != "gradient") return;
+    if (truth.number("rotate", 1.0) != 0.0) throw arris::InputError("a gradient scene must not be rotated");
+    for (const auto& edge : truth.edges) {
+      for (int i = 0; i <= 64; ++i) {
+        const double x = edge.point_at(i / 64.0).x;
+        min_ = std::min(min_, x);
+        max_ = std::max(max_, x);
+      }
+    }
+  }
+  double at(const arris::evaluate::Vec3& p) const {
+    if (!(max_ > min_)) return 1.0;
+    return 1.0 + (std::sqrt(10.0) - 1.0) * std::clamp((p.x - min_) / (max_ - min_), 0.0, 1.0);
+  }
+
+ private:
+  double min_ = std::numeric_limits<double>::infinity(), max_ = -std::numeric_limits<double>::infinity();
+};
+
 std::string row_of(const arris::bench::Candidate& c) {
   const arris::FoldEvidence& f = c.fold;
   const arris::RimEvidence& r = c.rim;
@@ -83,6 +110,7 @@ void run(const std::string& scan_path, const std::string& truth_path) {
   for (const auto& edge : truth.edges) units.push_back(edge.spacing > 0.0 ? edge.spacing : spacing);
   const arris::evaluate::EdgeIndex edges(truth.edges, units);
 
+  const SpacingGradient gradient(truth);
   const Scan scan = read_scan(scan_path);
   arris::ArrisParameters parameters;
   parameters.min_score = 0.0;
@@ -93,8 +121,9 @@ void run(const std::string& scan_path, const std::string& truth_path) {
   fmt::print("{}\n", kColumns);
   for (const arris::ContourRecord& record : contours.records) {
     const auto nearest = edges.nearest(scan.positions[record.id], kFarthest);
-    const double distance = std::min(nearest.distance, kFarthest);
-    fmt::print("{},{:.4f},{:.5g},{}\n", record.id, distance, distance < kFarthest ? units[nearest.edge] : spacing,
+    const double factor = gradient.at(scan.positions[record.id]);
+    const double distance = std::min(nearest.distance, kFarthest) / factor;
+    fmt::print("{},{:.4f},{:.5g},{}\n", record.id, distance, factor * (nearest.distance < kFarthest ? units[nearest.edge] : spacing),
                row_of(candidates[static_cast<std::size_t>(record.score) - 1]));
   }
 }
