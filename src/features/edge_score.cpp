@@ -1,25 +1,142 @@
 #include "features/edge_score.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "features/exact_math.h"
 
 namespace arris {
+namespace {
+
+// Limits of the candidates.
+constexpr double kMostAngle_deg = 160.0;
+constexpr double kMostRmsShare = 0.85;
+constexpr double kLeastArmShare = 1.0 / 12.0;
+constexpr double kMostDistance = 1.4;
+constexpr double kMostCurvedShare = 1.02;
+constexpr double kLeastAzimuths = 6.0;
+constexpr double kLeastInnerShare = 0.6;
+constexpr double kLeastWidth = 0.5;
+
+// Weights as fit_score.py prints them, in the order of the features below.
+constexpr double kFoldWeights[] = {
+    -1.4246,  // constant
+    3.9691,   // distance
+    1.6162,   // margin
+    -4.0644,  // position_error
+    -4.0057,  // rms_share
+    1.2582,   // curved_share
+    2.5549,   // curved_share above 0.8
+    1.0423,   // turn
+    3.7396,   // line_spacing
+    -1.1827,  // log count
+    1.436,    // second ball or third
+    0.78077,  // third ball
+};
+
+constexpr double kRimWeights[] = {
+    -45.357,  // constant
+    7.7609,   // gap
+    -12.11,   // gap above 180 deg
+    -12.537,  // gap * noise
+    5.3658,   // depth
+    -12.091,  // depth above 0.3
+    4.0833,   // depth above 0.7
+    3.5009,   // depth * noise
+    0.14731,  // log empty_radius
+    9.2077,   // log count
+    -10.727,  // log count above 3.8
+    8.746,    // inner_share
+    -12.833,  // inner_share above 0.85
+    -1.6086,  // rms
+    -2.3114,  // rms above 0.3
+    9.391,    // noise
+    -4.7654,  // offset above 0.3 gates
+};
+
+double above(double x, double start) {
+  return std::max(x - start, 0.0);
+}
+
+/// 1 / (1 + exp(-x)) from + - * / only; x is cut at +-30, so that the result is neither 0 nor 1.
+double logistic(double x) {
+  constexpr double kMost = 30.0;
+  constexpr int kHalvings = 6;  // Brings the argument to at most 0.47, where twelve terms reach 1e-14.
+  constexpr int kTerms = 12;
+  const double reduced = -std::min(std::fabs(x), kMost) / (1 << kHalvings);
+  double power = 1.0;
+  for (int i = kTerms; i >= 1; --i) power = 1.0 + power * reduced / i;
+  for (int i = 0; i < kHalvings; ++i) power *= power;
+  return x >= 0.0 ? 1.0 / (1.0 + power) : power / (1.0 + power);
+}
+
+template <std::size_t N>
+double probability(const double (&weights)[N], const double (&features)[N]) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < N; ++i) sum += weights[i] * features[i];
+  return logistic(sum);
+}
+
+}  // namespace
 
 bool is_fold_candidate(const FoldEvidence& f) {
-  return f.angle_deg <= 160.0 && f.rms <= 0.85 * f.all_rms &&
-         std::min(f.count_a, f.count_b) >= f.all_count / 12.0 && f.distance <= 1.4 * f.line_spacing &&
-         f.support_a + f.support_b >= 1.0 && f.rms <= 1.02 * f.curved_rms;
+  return f.angle_deg <= kMostAngle_deg && f.rms <= kMostRmsShare * f.all_rms &&
+         std::min(f.count_a, f.count_b) >= kLeastArmShare * f.all_count &&
+         f.distance <= kMostDistance * f.line_spacing && f.support_a + f.support_b >= 1.0 &&
+         f.rms <= kMostCurvedShare * f.curved_rms;
 }
 
 bool is_rim_candidate(const RimEvidence& r) {
-  return r.count >= 6.0 && r.inner_share >= 0.6 && r.offset <= r.gate && r.width >= 0.5 &&
-         r.gap_deg >= kLeastRimGap_deg;
+  return r.gap_deg >= kLeastRimGap_deg && r.count >= kLeastAzimuths && r.inner_share >= kLeastInnerShare &&
+         r.offset <= r.gate && r.width >= kLeastWidth;
 }
 
-double fold_score(const FoldEvidence&) {
-  return 1.0;
+double fold_score(const FoldEvidence& f) {
+  const double distance = std::min(f.distance / f.line_spacing, 2.0);
+  // How many standard deviations the line is within a spacing; no line is known to better than a tenth.
+  const double error2 = f.position_error * f.position_error + 0.01;
+  const double margin = std::clamp((1.0 - distance) / std::sqrt(error2), -4.0, 6.0);
+  const double curved = f.curved_rms > 0.0 ? std::min(f.rms / f.curved_rms, 1.0) : 1.0;
+  const double features[std::size(kFoldWeights)] = {1.0,
+                                                    distance,
+                                                    margin,
+                                                    std::min(f.position_error, 1.5),
+                                                    f.rms / f.all_rms,
+                                                    curved,
+                                                    above(curved, 0.8),
+                                                    std::min(180.0 - f.angle_deg, 60.0) / 60.0,
+                                                    f.line_spacing,
+                                                    log_of_positive(f.all_count),
+                                                    f.ball_radius > 5.0 ? 1.0 : 0.0,
+                                                    f.ball_radius > 9.0 ? 1.0 : 0.0};
+  return probability(kFoldWeights, features);
 }
-double rim_score(const RimEvidence&) {
-  return 1.0;
+
+double rim_score(const RimEvidence& r) {
+  const double gap = std::min(r.gap_deg, 220.0) / 180.0;
+  const double depth = std::min(r.depth, 1.5);
+  const double noise = std::min(r.noise, 1.0);
+  const double rms = std::min(r.rms, 1.0);
+  const double count = log_of_positive(r.count);
+  const double features[std::size(kRimWeights)] = {1.0,
+                                                   gap,
+                                                   above(gap, 1.0),
+                                                   gap * noise,
+                                                   depth,
+                                                   above(depth, 0.3),
+                                                   above(depth, 0.7),
+                                                   depth * noise,
+                                                   log_of_positive(std::clamp(r.empty_radius, 0.8, 8.0)),
+                                                   count,
+                                                   above(count, 3.8),
+                                                   r.inner_share,
+                                                   above(r.inner_share, 0.85),
+                                                   rms,
+                                                   above(rms, 0.3),
+                                                   noise,
+                                                   above(r.offset / r.gate, 0.3)};
+  return probability(kRimWeights, features);
 }
 
 }  // namespace arris

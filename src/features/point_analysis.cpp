@@ -5,6 +5,7 @@
 
 #include "features/curved_surface.h"
 #include "features/exact_math.h"
+#include "features/quadric_share.h"
 
 namespace arris {
 namespace {
@@ -27,6 +28,9 @@ constexpr double kNoiseGrowth = 1.3;
 /// Two planes explain noise hardly better than one: their rms stays above this share.
 constexpr double kNoiseShare = 0.65;
 constexpr double kMostNoise = 0.85;
+/// Share of the scatter that a bent surface leaves, at most, of a fold in the first and in the near ball.
+constexpr double kBendShare = 0.9;
+constexpr double kNearBendShare = 0.8;
 /// Second and third ball: flat below this rms.
 constexpr double kFlatRmsOf[] = {kFlatRms, 0.3, 0.5};
 
@@ -96,6 +100,14 @@ double significant_gap_deg(double n) {
   return 360.0 * (1.0 - sum);
 }
 
+/// True if the first ball shows no bend, neither as a whole nor next to the point: its points scatter about a plane.
+bool shows_no_bend(const BallPoints& first) {
+  const FittedPlane near = fit_plane(sum_within(first, kNearRadius));
+  if (quadric_share(first, kNearRadius, near) < kNearBendShare) return false;
+  const FittedPlane all = fit_plane(sum_within(first, kBallRadii[0]));
+  return quadric_share(first, kBallRadii[0], all) >= kBendShare;
+}
+
 bool judge_fold(const LevelFit& fit, const BallPoints& points, PointContour& contour) {
   const FoldLine& line = fit.line;
   const double arms = line.count_a + line.count_b;
@@ -138,12 +150,21 @@ bool analyse_point(const PointProspects& prospects, BallProvider& balls, Analysi
   if (static_cast<double>(first->count) > kMostBallPoints) return true;
   double noise = prospects.rms < kVolumeRms ? prospects.rms : kUnknownNoise;
   if (prospects.fold && prospects.rms < kVolumeRms && want_fold) {
-    LevelFit best = fit_level(*first, 0);
+    LevelFit best;
+    if (prospects.rms < kMostNoise && shows_no_bend(*first)) {
+      const BallPoints* second = balls.ball(1);
+      if (second == nullptr) return false;
+      const double wide_rms = fit_plane(sum_within(*second, kBallRadii[1])).rms;
+      best.flat = wide_rms < std::min(kNoiseGrowth * prospects.rms, kMostNoise);
+      best.all_rms = wide_rms;
+    }
+    const bool scatter = best.flat;
+    if (!scatter) best = fit_level(*first, 0);
     const double first_rms = best.arms ? best.line.rms : 1.0;
     bool noisy_plane = false;
     // A fair fit whose line is far away, or two sheets, will not become a fold at the point in a larger ball.
     const bool settled = best.layers || (first_rms < kFairRms && best.line.distance > kFarLine);
-    if (first_rms > kQuietRms && !settled) {
+    if (first_rms > kQuietRms && !settled && !scatter) {
       const BallPoints* second = balls.ball(1);
       if (second == nullptr) return false;
       if (first_rms > kNoiseShare * best.all_rms) {
