@@ -13,6 +13,9 @@ namespace {
 /// Neighbours that the local spacing is taken from.
 constexpr std::size_t kSpacingNeighbours = 20;
 
+/// Larger balls of up to this many median spacings of a group share their candidates.
+constexpr double kCommonSpacing = 1.2;
+
 struct BallShape {
   double count = 0.0;
   double rms = 0.0;         ///< About the plane, spacings.
@@ -48,8 +51,8 @@ class ArrisRunner::Balls : public BallProvider {
     if (known_[level]) return &runner_.points_[level];
     const double radius = std::min(kBallRadii[level] * spacing_, runner_.task_.max_reach);
     if (!runner_.seen(centre_.slot, radius)) return nullptr;
-    std::vector<Ball> one{{centre_.slot, radius, 0}};
-    runner_.wide_search_.run(one, [&](const auto& candidates, const auto& query, const Ball&) {
+    SharedBalls& balls = level == 1 ? runner_.second_balls_ : runner_.third_balls_;
+    balls.run({centre_.slot, radius, 0}, [&](const auto& candidates, const auto& query) {
       collect_ball(candidates, query, spacing_, runner_.points_[level]);
     });
     known_[level] = true;
@@ -67,13 +70,21 @@ ArrisRunner::ArrisRunner(const ArrisTask& task)
     : task_(task),
       neighbour_search_(task.tree, {kSpacingNeighbours, task.max_reach, task.max_d2, Arithmetic::kFloat}),
       ball_search_(task.tree, Arithmetic::kFloat, BallSearch::Exact::kSums),
-      wide_search_(task.tree, Arithmetic::kFloat, BallSearch::Exact::kSquares) {}
+      second_balls_(task.tree),
+      third_balls_(task.tree) {}
 
 void ArrisRunner::run(std::span<const std::uint32_t> slots) {
   balls_.clear();
   spacings_.clear();
   neighbour_search_.run(slots,
                         [this](std::uint32_t slot, const Neighbours& neighbours) { use_neighbours(slot, neighbours); });
+  if (balls_.empty()) return;
+  std::vector<double>& sorted = sorted_spacings_;
+  sorted.assign(spacings_.begin(), spacings_.end());
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  const double common = kCommonSpacing * sorted[sorted.size() / 2];
+  second_balls_.begin(balls_, std::min(kBallRadii[1] * common, task_.max_reach));
+  third_balls_.begin(balls_, std::min(kBallRadii[2] * common, task_.max_reach));
   ball_search_.run(
       balls_, [this](const auto& candidates, const auto& query, const Ball& ball) { test(candidates, query, ball); });
 }

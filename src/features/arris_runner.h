@@ -55,9 +55,10 @@ class ArrisRunner {
   ArrisTask task_;
   NeighbourSearch neighbour_search_;
   BallSearch ball_search_;
-  BallSearch wide_search_;  ///< Larger balls around single points, while the candidates of a group are in use.
+  SharedBalls second_balls_, third_balls_;  ///< Of the group whose first balls are being tested.
   std::vector<Ball> balls_;
   std::vector<double> spacings_;  ///< Of the balls' points, steps.
+  std::vector<double> sorted_spacings_;
   BallPoints points_[3];
   AnalysisScratch scratch_;
   std::vector<Found> found_;

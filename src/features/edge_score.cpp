@@ -21,38 +21,39 @@ constexpr double kLeastWidth = 0.5;
 
 // Weights as fit_score.py prints them, in the order of the features below.
 constexpr double kFoldWeights[] = {
-    -1.4246,  // constant
-    3.9691,   // distance
-    1.6162,   // margin
-    -4.0644,  // position_error
-    -4.0057,  // rms_share
-    1.2582,   // curved_share
-    2.5549,   // curved_share above 0.8
-    1.0423,   // turn
-    3.7396,   // line_spacing
-    -1.1827,  // log count
-    1.436,    // second ball or third
-    0.78077,  // third ball
+    6.3035,    // constant
+    0.93626,   // margin
+    0.087306,  // margin below 0
+    -0.20752,  // margin above 2
+    -5.3479,   // position_error
+    -1.7431,   // rms_share
+    0.48859,   // curved_share
+    0.40784,   // curved_share above 0.8
+    1.1257,    // turn
+    1.283,     // line_spacing
+    -1.4722,   // log count
+    1.8791,    // second ball or third
+    0.82434,   // third ball
 };
 
 constexpr double kRimWeights[] = {
-    -45.357,  // constant
-    7.7609,   // gap
-    -12.11,   // gap above 180 deg
-    -12.537,  // gap * noise
-    5.3658,   // depth
-    -12.091,  // depth above 0.3
-    4.0833,   // depth above 0.7
-    3.5009,   // depth * noise
-    0.14731,  // log empty_radius
-    9.2077,   // log count
-    -10.727,  // log count above 3.8
-    8.746,    // inner_share
-    -12.833,  // inner_share above 0.85
-    -1.6086,  // rms
-    -2.3114,  // rms above 0.3
-    9.391,    // noise
-    -4.7654,  // offset above 0.3 gates
+    -40.296,  // constant
+    7.3644,   // gap
+    -12.653,  // gap above 180 deg
+    -9.8884,  // gap * noise
+    4.827,    // depth
+    -11,      // depth above 0.3
+    4.9031,   // depth above 0.7
+    2.3047,   // depth * noise
+    0.14716,  // log empty_radius
+    8.0335,   // log count
+    -9.4279,  // log count above 3.8
+    7.9855,   // inner_share
+    -9.9002,  // inner_share above 0.85
+    0.4687,   // rms
+    -3.0618,  // rms above 0.3
+    6.7875,   // noise
+    -3.6437,  // offset above 0.3 gates
 };
 
 double above(double x, double start) {
@@ -99,8 +100,9 @@ double fold_score(const FoldEvidence& f) {
   const double margin = std::clamp((1.0 - distance) / std::sqrt(error2), -4.0, 6.0);
   const double curved = f.curved_rms > 0.0 ? std::min(f.rms / f.curved_rms, 1.0) : 1.0;
   const double features[std::size(kFoldWeights)] = {1.0,
-                                                    distance,
                                                     margin,
+                                                    std::min(margin, 0.0),
+                                                    above(margin, 2.0),
                                                     std::min(f.position_error, 1.5),
                                                     f.rms / f.all_rms,
                                                     curved,

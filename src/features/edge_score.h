@@ -3,7 +3,8 @@
 ///
 /// Logistic models of what the method measured at the point, fitted to scenes with exact truth by
 /// bench/accuracy/score_samples (which says on which, and how well the scores hold on scenes that were kept aside).
-/// Right means: an edge of any kind within one spacing; where points come in lines, the spacing across the lines.
+/// Right means: an edge of any kind within one spacing; in scans, whose lines are farther apart than the points in
+/// them, within two of the local spacings sqrt(area per point).
 ///
 /// Laws: (1) results are in (0, 1) and are never NaN; (2) they depend on the evidence only, with the same bits on every
 /// machine; (3) more `distance` never raises a fold's score. Pure functions of constant time.

@@ -229,4 +229,68 @@ class BallSearch {
   CandidateSet<std::int64_t> integers_;
 };
 
+/// Larger balls around some points of a group, asked for one by one. The second question gathers for the whole group.
+/// Not thread-safe.
+class SharedBalls {
+ public:
+  explicit SharedBalls(const PointTree& tree)
+      : tree_(tree), single_(tree, Arithmetic::kFloat, BallSearch::Exact::kSquares) {}
+
+  /// A new group begins: points that are close together, with balls of `reach` steps for most of them.
+  void begin(std::span<const Ball> group, double reach) {
+    group_.assign(group.begin(), group.end());
+    reach_ = reach;
+    questions_ = 0;
+    gathered_ = Gathered::kNothing;
+  }
+
+  /// Calls use(candidates, ball query) for a ball around a point of the group.
+  template <class Use>
+  void run(const Ball& ball, Use&& use) {
+    if (ball.radius > reach_ || ++questions_ < 2 || !gather()) {
+      one_.assign(1, ball);
+      single_.run(one_, [&](const auto& candidates, const auto& query, const Ball&) { use(candidates, query); });
+      return;
+    }
+    if (gathered_ == Gathered::kFloats) {
+      use(static_cast<const CandidateSet<float>&>(floats_), query_of(floats_, ball));
+    } else {
+      use(static_cast<const CandidateSet<double>&>(doubles_), query_of(doubles_, ball));
+    }
+  }
+
+ private:
+  enum class Gathered : std::uint8_t { kNothing, kFloats, kDoubles };
+
+  bool gather() {
+    if (gathered_ != Gathered::kNothing) return true;
+    const ClosedBox box =
+        detail::box_of(tree_, std::span<const Ball>(group_), [](const Ball& ball) { return ball.slot; });
+    const double squares = (reach_ + 1.0) * (reach_ + 1.0);
+    if (squares < kExactSquares<float> && floats_.gather(tree_, box, reach_)) {
+      gathered_ = Gathered::kFloats;
+    } else if (squares < kExactSquares<double> && doubles_.gather(tree_, box, reach_)) {
+      gathered_ = Gathered::kDoubles;
+    }
+    return gathered_ != Gathered::kNothing;
+  }
+
+  template <class T>
+  BallQuery<T> query_of(const CandidateSet<T>& candidates, const Ball& ball) const {
+    return {static_cast<T>(tree_.x()[ball.slot] - candidates.origin[0]),
+            static_cast<T>(tree_.y()[ball.slot] - candidates.origin[1]),
+            static_cast<T>(tree_.z()[ball.slot] - candidates.origin[2]),
+            static_cast<T>(static_cast<std::uint64_t>(ball.radius * ball.radius))};
+  }
+
+  const PointTree& tree_;
+  BallSearch single_;
+  std::vector<Ball> group_, one_;
+  double reach_ = 0.0;
+  int questions_ = 0;
+  Gathered gathered_ = Gathered::kNothing;
+  CandidateSet<float> floats_;
+  CandidateSet<double> doubles_;
+};
+
 }  // namespace arris

@@ -117,9 +117,8 @@ FoldEvidence evidence_of(const LevelFit& fit, const BallPoints& points) {
   return e;
 }
 
-RimEvidence evidence_of(const RimShape& rim, double noise, int level) {
+RimEvidence evidence_of(const RimShape& rim, double noise) {
   RimEvidence e;
-  e.ball_radius = kBallRadii[level];
   e.gap_deg = rim.gap_deg;
   e.depth = rim.depth;
   e.empty_radius = rim.empty_radius;
@@ -155,14 +154,12 @@ bool analyse_point(const PointProspects& prospects, BallProvider& balls, Analysi
   }
   if (want_boundary) {
     RimShape rim = measure_rim(*first, kBallRadii[0], noise, scratch.rim);
-    int level = 0;
     if (rim.width < kLeastRimWidth && rim.gap_deg >= kLeastRimGap_deg) {
       const BallPoints* second = balls.ball(1);
       if (second == nullptr) return false;
       rim = measure_rim(*second, kBallRadii[1], noise, scratch.rim);
-      level = 1;
     }
-    candidate.rim = evidence_of(rim, noise, level);
+    candidate.rim = evidence_of(rim, noise);
     candidate.has_rim = is_rim_candidate(candidate.rim);
   }
   if (!candidate.has_fold && !candidate.has_rim) return true;

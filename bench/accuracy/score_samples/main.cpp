@@ -20,8 +20,8 @@
 
 namespace {
 
-constexpr std::size_t kMostSamples = 1 << 24;    // Records number the samples as float.
-constexpr double kFarthest = 50.0;               // Distances are cut here.
+constexpr std::size_t kMostSamples = 1 << 24;        // Records number the samples as float.
+constexpr double kFarthest = 50.0;                   // Distances are cut here.
 constexpr double kMaxRadiusInSceneSpacings = 100.0;  // Plenty: the largest ball has 13 of the local spacing.
 
 struct Scan {
@@ -89,16 +89,15 @@ std::string row_of(const arris::bench::Candidate& c) {
   const arris::RimEvidence& r = c.rim;
   return fmt::format(
       "{:d},{:d},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{},{},{},{:.6g},"
-      "{},{:.6g},{:.6g},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}",
+      "{:.6g},{:.6g},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}",
       c.has_fold, c.has_rim, f.ball_radius, f.line_spacing, f.distance, f.position_error, f.angle_deg, f.rms, f.all_rms,
-      f.curved_rms, f.count_a, f.count_b, f.all_count, f.support_a, f.support_b, arris::fold_score(f), r.ball_radius,
-      r.gap_deg, r.depth, r.empty_radius, r.count, r.inner_share, r.offset, r.gate, r.rms, r.width, r.noise,
-      arris::rim_score(r));
+      f.curved_rms, f.count_a, f.count_b, f.all_count, f.support_a, f.support_b, arris::fold_score(f), r.gap_deg,
+      r.depth, r.empty_radius, r.count, r.inner_share, r.offset, r.gate, r.rms, r.width, r.noise, arris::rim_score(r));
 }
 
 constexpr const char* kColumns =
     "id,to_edge,edge_spacing,fold,rim,f_ball,f_line_spacing,f_distance,f_position_error,f_angle_deg,f_rms,f_all_rms,"
-    "f_curved_rms,f_count_a,f_count_b,f_all_count,f_support_a,f_support_b,f_score,r_ball,r_gap_deg,r_depth,"
+    "f_curved_rms,f_count_a,f_count_b,f_all_count,f_support_a,f_support_b,f_score,r_gap_deg,r_depth,"
     "r_empty_radius,r_count,r_inner_share,r_offset,r_gate,r_rms,r_width,r_noise,r_score";
 
 void run(const std::string& scan_path, const std::string& truth_path) {
@@ -123,7 +122,8 @@ void run(const std::string& scan_path, const std::string& truth_path) {
     const auto nearest = edges.nearest(scan.positions[record.id], kFarthest);
     const double factor = gradient.at(scan.positions[record.id]);
     const double distance = std::min(nearest.distance, kFarthest) / factor;
-    fmt::print("{},{:.4f},{:.5g},{}\n", record.id, distance, factor * (nearest.distance < kFarthest ? units[nearest.edge] : spacing),
+    fmt::print("{},{:.4f},{:.5g},{}\n", record.id, distance,
+               factor * (nearest.distance < kFarthest ? units[nearest.edge] : spacing),
                row_of(candidates[static_cast<std::size_t>(record.score) - 1]));
   }
 }
