@@ -21,39 +21,39 @@ constexpr double kLeastWidth = 0.5;
 
 // Weights as fit_score.py prints them, in the order of the features below.
 constexpr double kFoldWeights[] = {
-    6.3035,    // constant
-    0.93626,   // margin
-    0.087306,  // margin below 0
-    -0.20752,  // margin above 2
-    -5.3479,   // position_error
-    -1.7431,   // rms_share
-    0.48859,   // curved_share
-    0.40784,   // curved_share above 0.8
-    1.1257,    // turn
-    1.283,     // line_spacing
-    -1.4722,   // log count
-    1.8791,    // second ball or third
-    0.82434,   // third ball
+    3.156,     // constant
+    0.54451,   // margin
+    0.55732,   // margin below 0
+    -0.31093,  // margin above 2
+    -5.4861,   // position_error
+    -0.41464,  // rms_share
+    0.7933,    // curved_share
+    -3.5055,   // curved_share above 0.8
+    6.2697,    // turn
+    0.71126,   // line_spacing
+    -1.7755,   // log count
+    1.9065,    // second ball or third
+    0.55719,   // third ball
 };
 
 constexpr double kRimWeights[] = {
-    -40.296,  // constant
-    7.3644,   // gap
-    -12.653,  // gap above 180 deg
-    -9.8884,  // gap * noise
-    4.827,    // depth
-    -11,      // depth above 0.3
-    4.9031,   // depth above 0.7
-    2.3047,   // depth * noise
-    0.14716,  // log empty_radius
-    8.0335,   // log count
-    -9.4279,  // log count above 3.8
-    7.9855,   // inner_share
-    -9.9002,  // inner_share above 0.85
-    0.4687,   // rms
-    -3.0618,  // rms above 0.3
-    6.7875,   // noise
-    -3.6437,  // offset above 0.3 gates
+    -38.016,    // constant
+    8.6003,     // gap
+    -14.219,    // gap above 180 deg
+    -11.669,    // gap * noise
+    4.5128,     // depth
+    -10.67,     // depth above 0.3
+    4.8131,     // depth above 0.7
+    2.6799,     // depth * noise
+    0.0084307,  // log empty_radius
+    7.6916,     // log count
+    -9.1336,    // log count above 3.8
+    5.9501,     // inner_share
+    -7.8074,    // inner_share above 0.85
+    -0.60989,   // rms
+    -1.9646,    // rms above 0.3
+    8.5893,     // noise
+    -3.5572,    // offset above 0.3 gates
 };
 
 double above(double x, double start) {

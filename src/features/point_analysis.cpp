@@ -152,11 +152,9 @@ bool analyse_point(const PointProspects& prospects, BallProvider& balls, Analysi
   if (prospects.fold && prospects.rms < kVolumeRms && want_fold) {
     LevelFit best;
     if (prospects.rms < kMostNoise && shows_no_bend(*first)) {
-      const BallPoints* second = balls.ball(1);
-      if (second == nullptr) return false;
-      const double wide_rms = fit_plane(sum_within(*second, kBallRadii[1])).rms;
-      best.flat = wide_rms < std::min(kNoiseGrowth * prospects.rms, kMostNoise);
-      best.all_rms = wide_rms;
+      if (prospects.off_centre < kCentredShare) return true;
+      best.flat = true;
+      best.all_rms = prospects.rms;
     }
     const bool scatter = best.flat;
     if (!scatter) best = fit_level(*first, 0);

@@ -47,10 +47,11 @@ class BallProvider {
 
 /// What is known of the point before any ball is collected.
 struct PointProspects {
-  double rms = 0.0;       ///< Of the first ball about its plane, spacings.
-  double near_rms = 0.0;  ///< Of the near ball.
-  bool fold = true;       ///< Folds are possible.
-  bool flat = false;      ///< The first ball is flat.
+  double rms = 0.0;         ///< Of the first ball about its plane, spacings.
+  double near_rms = 0.0;    ///< Of the near ball.
+  double off_centre = 1.0;  ///< Distance of the mean of the first ball from its centre, radii.
+  bool fold = true;         ///< Folds are possible.
+  bool flat = false;        ///< The first ball is flat.
 };
 
 /// Reusable memory.
