@@ -37,23 +37,25 @@ constexpr double kFoldWeights[] = {
 };
 
 constexpr double kRimWeights[] = {
-    -38.016,    // constant
-    8.6003,     // gap
-    -14.219,    // gap above 180 deg
-    -11.669,    // gap * noise
-    4.5128,     // depth
-    -10.67,     // depth above 0.3
-    4.8131,     // depth above 0.7
-    2.6799,     // depth * noise
-    0.0084307,  // log empty_radius
-    7.6916,     // log count
-    -9.1336,    // log count above 3.8
-    5.9501,     // inner_share
-    -7.8074,    // inner_share above 0.85
-    -0.60989,   // rms
-    -1.9646,    // rms above 0.3
-    8.5893,     // noise
-    -3.5572,    // offset above 0.3 gates
+    -36.099,    // constant
+    4.2308,     // gap
+    -11.968,    // gap above 180 deg
+    -7.4051,    // gap * noise
+    0.56335,    // depth
+    -8.3733,    // depth above 0.3
+    5.6607,     // depth above 0.7
+    4.3901,     // depth * noise
+    -0.11686,   // log empty_radius
+    0.0091548,  // log empty_radius above 0.8
+    2.366,      // depth above 0.3 * log empty_radius above 0.8
+    8.3021,     // log count
+    -9.8659,    // log count above 3.8
+    6.6126,     // inner_share
+    -8.0699,    // inner_share above 0.85
+    0.39851,    // rms
+    -3.0139,    // rms above 0.3
+    4.0216,     // noise
+    -3.9488,    // offset above 0.3 gates
 };
 
 double above(double x, double start) {
@@ -121,6 +123,8 @@ double rim_score(const RimEvidence& r) {
   const double noise = std::min(r.noise, 1.0);
   const double rms = std::min(r.rms, 1.0);
   const double count = log_of_positive(r.count);
+  // Beside holes and other concave rims the hull reaches over the void: what is deep in it may still be at the rim.
+  const double empty = log_of_positive(std::clamp(r.empty_radius, 0.8, 8.0));
   const double features[std::size(kRimWeights)] = {1.0,
                                                    gap,
                                                    above(gap, 1.0),
@@ -129,7 +133,9 @@ double rim_score(const RimEvidence& r) {
                                                    above(depth, 0.3),
                                                    above(depth, 0.7),
                                                    depth * noise,
-                                                   log_of_positive(std::clamp(r.empty_radius, 0.8, 8.0)),
+                                                   empty,
+                                                   above(empty, 0.8),
+                                                   above(depth, 0.3) * above(empty, 0.8),
                                                    count,
                                                    above(count, 3.8),
                                                    r.inner_share,

@@ -43,8 +43,8 @@ struct RimEvidence {
   double noise = 0.0;         ///< Standard deviation of the points about their surface, >= 0.
 };
 
-/// A smaller azimuth gap is no candidate for a boundary.
-constexpr double kLeastRimGap_deg = 95.0;
+/// A smaller azimuth gap is no candidate for a boundary; measure_rim() does not look further either.
+constexpr double kLeastRimGap_deg = 105.0;
 /// A fold with at least this score needs no look at the rim; otherwise the likelier of both stands.
 constexpr double kLikelyFoldScore = 0.5;
 

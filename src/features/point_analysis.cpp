@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "features/curved_surface.h"
+#include "features/edge_score.h"
 #include "features/exact_math.h"
 #include "features/quadric_share.h"
 
@@ -31,6 +32,11 @@ constexpr double kMostNoise = 0.85;
 /// Share of the scatter that a bent surface leaves, at most, of a fold in the first and in the near ball.
 constexpr double kBendShare = 0.9;
 constexpr double kNearBendShare = 0.8;
+/// Scatter is the same in the near and in the first ball; folds, also acute ones that no quadric over one plane
+/// follows, grow by 5 / 3.
+constexpr double kScatterGrowth = 1.35;
+/// Share of the points within half an rms of their plane: 0.38 for noise, about 0 for two layers.
+constexpr double kLeastCoreShare = 0.25;
 /// Second and third ball: flat below this rms.
 constexpr double kFlatRmsOf[] = {kFlatRms, 0.3, 0.5};
 
@@ -46,6 +52,10 @@ constexpr double kCertainGap_deg = 135.0;
 constexpr double kMostDepth = 0.7;
 /// A disc this large without points beside the point: by chance less than once in 10^6 points.
 constexpr double kLeastEmptyRadius = 2.2;
+/// A hole that the disc of 5 spacings reaches across: an empty disc of this radius, and surface on its other side (scan
+/// lines far apart have empty discs on both sides).
+constexpr double kLeastHoleRadius = 2.5;
+constexpr double kLeastOpposite = 4.0;
 constexpr double kFalseAlarms = 1e-4;
 /// Narrower layers (rms across their longest direction, spacings) are single scan lines.
 constexpr double kLeastRimWidth = 0.7;
@@ -53,7 +63,7 @@ constexpr double kLeastAzimuths = 8.0;
 constexpr double kLeastInnerShare = 0.7;
 /// Noise that two-plane fits show is partly bad fit; boundaries are judged with at most this much.
 constexpr double kUnknownNoise = 0.3;
-constexpr double kMostRimNoise = 0.5;
+constexpr double kMostRimNoise = 0.3;
 
 struct LevelFit {
   int level = 0;
@@ -105,7 +115,9 @@ bool shows_no_bend(const BallPoints& first) {
   const FittedPlane near = fit_plane(sum_within(first, kNearRadius));
   if (quadric_share(first, kNearRadius, near) < kNearBendShare) return false;
   const FittedPlane all = fit_plane(sum_within(first, kBallRadii[0]));
-  return quadric_share(first, kBallRadii[0], all) >= kBendShare;
+  if (quadric_share(first, kBallRadii[0], all) < kBendShare) return false;
+  // Two layers do not bend either, but between them there is nothing.
+  return sum_near_plane(first, kBallRadii[0], all, 0.5 * all.rms).n >= kLeastCoreShare * all.count;
 }
 
 bool judge_fold(const LevelFit& fit, const BallPoints& points, PointContour& contour) {
@@ -117,26 +129,54 @@ bool judge_fold(const LevelFit& fit, const BallPoints& points, PointContour& con
   if (std::min(line.count_a, line.count_b) < kLeastArmShare * fit.all_count) return false;
   if (line.distance > kMostDistance * contour.line_spacing) return false;
   if (line.support_a < 1 || line.support_b < 1) return false;
-  if (line.rms > kMostCurvedShare * curved_surface_rms(points, line)) return false;
+  const double curved_rms = curved_surface_rms(points, line);
+  if (line.rms > kMostCurvedShare * curved_rms) return false;
   contour.kind = PointContour::Kind::kFold;
   contour.line = line;
   contour.nearest = line.foot;
   contour.direction = line.direction;
-  contour.score = 1.0;
+  FoldEvidence evidence;
+  evidence.ball_radius = kBallRadii[fit.level];
+  evidence.line_spacing = contour.line_spacing;
+  evidence.distance = line.distance;
+  evidence.position_error = line.position_error;
+  evidence.angle_deg = line.angle_deg;
+  evidence.rms = line.rms;
+  evidence.all_rms = fit.all_rms;
+  evidence.curved_rms = curved_rms;
+  evidence.count_a = line.count_a;
+  evidence.count_b = line.count_b;
+  evidence.all_count = fit.all_count;
+  evidence.support_a = line.support_a;
+  evidence.support_b = line.support_b;
+  contour.score = fold_score(evidence);
   return true;
 }
 
-bool judge_rim(const RimShape& rim, PointContour& contour) {
+bool judge_rim(const RimShape& rim, double noise, PointContour& contour) {
   if (rim.count < kLeastAzimuths || rim.inner_share < kLeastInnerShare || rim.offset > rim.gate) return false;
   if (rim.width < kLeastRimWidth) return false;
-  const double significant = significant_gap_deg(rim.count);
-  if (rim.gap_deg < std::max(kLeastGap_deg, significant)) return false;
-  if (rim.depth > kMostDepth && rim.gap_deg < kCertainGap_deg && rim.empty_radius < kLeastEmptyRadius) return false;
+  const bool open =
+      rim.gap_deg >= std::max(kLeastGap_deg, significant_gap_deg(rim.count)) &&
+      (rim.depth <= kMostDepth || rim.gap_deg >= kCertainGap_deg || rim.empty_radius >= kLeastEmptyRadius);
+  const bool small_hole = rim.empty_radius >= kLeastHoleRadius && rim.opposite >= kLeastOpposite;
+  if (!open && !small_hole) return false;
   contour.kind = PointContour::Kind::kBoundary;
   contour.gap_deg = rim.gap_deg;
   contour.nearest = rim.nearest;
   contour.direction = rim.direction;
-  contour.score = 1.0;
+  RimEvidence evidence;
+  evidence.gap_deg = rim.gap_deg;
+  evidence.depth = rim.depth;
+  evidence.empty_radius = rim.empty_radius;
+  evidence.count = rim.count;
+  evidence.inner_share = rim.inner_share;
+  evidence.offset = rim.offset;
+  evidence.gate = rim.gate;
+  evidence.rms = rim.rms;
+  evidence.width = rim.width;
+  evidence.noise = noise;
+  contour.score = rim_score(evidence);
   return true;
 }
 
@@ -151,7 +191,7 @@ bool analyse_point(const PointProspects& prospects, BallProvider& balls, Analysi
   double noise = prospects.rms < kVolumeRms ? prospects.rms : kUnknownNoise;
   if (prospects.fold && prospects.rms < kVolumeRms && want_fold) {
     LevelFit best;
-    if (prospects.rms < kMostNoise && shows_no_bend(*first)) {
+    if (prospects.rms < std::min(kMostNoise, kScatterGrowth * prospects.near_rms) && shows_no_bend(*first)) {
       if (prospects.off_centre < kCentredShare) return true;
       best.flat = true;
       best.all_rms = prospects.rms;
@@ -196,7 +236,7 @@ bool analyse_point(const PointProspects& prospects, BallProvider& balls, Analysi
       if (second == nullptr) return false;
       rim = measure_rim(*second, kBallRadii[1], noise, scratch.rim);
     }
-    judge_rim(rim, contour);
+    judge_rim(rim, noise, contour);
   }
   return true;
 }

@@ -12,15 +12,14 @@ namespace {
 
 constexpr double kLeastGate = 0.8;
 constexpr double kGateDeviations = 3.0;
-/// Radii of the discs on which the layer's plane is fitted, spacings; the last is the caller's, twice.
-constexpr double kFirstDisc = 2.2;
-constexpr double kDiscs[] = {2.5, 3.5};
-constexpr double kLeastLayerPoints = 5.0;
 /// Nearer projections have no azimuth, spacings.
 constexpr double kLeastOffset = 0.25;
 /// Radius of the disc whose hull is taken: concave rims of radius 15 bulge into it by half a spacing.
 constexpr double kHullRadius = 4.0;
 
+/// Azimuths of points this near tell of holes that the whole disc reaches across.
+constexpr double kNearDisc = 3.0;
+constexpr double kSmallHoleDepth = 1.0;
 /// Larger empty discs are not told apart.
 constexpr double kMostEmptyRadius = 100.0;
 
@@ -87,14 +86,15 @@ double hull_depth(const std::vector<Planar>& hull, Planar& nearest, Planar& alon
   return depth;
 }
 
-FittedPlane own_plane(const BallPoints& points, double radius, double gate) {
-  FittedPlane plane = fit_plane(sum_within(points, kFirstDisc));
-  for (const double disc : {kDiscs[0], kDiscs[1], radius, radius}) {
-    const PointSums sums = sum_near_plane(points, std::min(disc, radius), plane, gate);
-    if (sums.n < kLeastLayerPoints) break;
-    plane = fit_plane(sums);
+/// Points of the near disc that lie on the other side than `outward`, within 60 degrees.
+double count_opposite(const std::vector<Planar>& seen, const Planar& outward) {
+  double count = 0.0;
+  for (const Planar& p : seen) {
+    const double reach2 = p.first * p.first + p.second * p.second;
+    const double towards = p.first * outward.first + p.second * outward.second;
+    if (reach2 <= kNearDisc * kNearDisc && towards < 0.0 && towards * towards >= 0.25 * reach2) count += 1.0;
   }
-  return plane;
+  return count;
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ FittedPlane own_plane(const BallPoints& points, double radius, double gate) {
 RimShape measure_rim(const BallPoints& points, double radius, double noise, RimScratch& scratch) {
   RimShape shape;
   shape.gate = std::max(kLeastGate, kGateDeviations * noise);
-  const FittedPlane plane = own_plane(points, radius, shape.gate);
+  const FittedPlane plane = own_layer(points, radius, shape.gate, scratch.layer);
   shape.rms = plane.rms;
   shape.width = plane.middle_rms;
   shape.offset = std::fabs(plane.offset);
@@ -110,6 +110,7 @@ RimShape measure_rim(const BallPoints& points, double radius, double noise, RimS
   scratch.azimuths.clear();
   scratch.inverted.clear();
   std::uint32_t occupied = 0;
+  std::uint32_t occupied_near = 0;
   double layer = 0.0;
   double inner = 0.0;
   for (std::size_t i = 0; i < points.count; ++i) {
@@ -124,13 +125,15 @@ RimShape measure_rim(const BallPoints& points, double radius, double noise, RimS
     const double reach2 = u * u + v * v;
     if (reach2 <= kHullRadius * kHullRadius) scratch.seen.emplace_back(u, v);
     if (reach2 > kLeastOffset * kLeastOffset) {
-      occupied |= azimuth_bin(u, v);
+      const std::uint32_t bin = azimuth_bin(u, v);
+      occupied |= bin;
+      if (reach2 <= kNearDisc * kNearDisc) occupied_near |= bin;
       scratch.inverted.emplace_back(u, v);
     }
   }
   shape.count = static_cast<double>(scratch.inverted.size());
   shape.inner_share = layer > 0.0 ? inner / layer : 0.0;
-  if (scratch.inverted.size() < 3 || !may_have_gap(occupied)) return shape;
+  if (scratch.inverted.size() < 3 || !(may_have_gap(occupied) || may_have_gap(occupied_near))) return shape;
   for (Planar& p : scratch.inverted) {
     scratch.azimuths.push_back(angle_of(p.second, p.first));
     const double reach2 = p.first * p.first + p.second * p.second;
@@ -142,7 +145,6 @@ RimShape measure_rim(const BallPoints& points, double radius, double noise, RimS
     widest = std::max(widest, scratch.azimuths[i] - scratch.azimuths[i - 1]);
   }
   shape.gap_deg = widest * kDegreesPerRadian;
-  if (shape.gap_deg < kLeastGap_deg) return shape;
   // Inversion turns discs that touch the centre into half-planes: the largest empty one is where the hull of the
   // inverted points comes closest to the centre.
   scratch.inverted.emplace_back(0.0, 0.0);
@@ -150,9 +152,15 @@ RimShape measure_rim(const BallPoints& points, double radius, double noise, RimS
   Planar nearest, along;
   const double inverse_diameter = hull_depth(scratch.inverted, nearest, along);
   shape.empty_radius = inverse_diameter > 0.5 / kMostEmptyRadius ? 0.5 / inverse_diameter : kMostEmptyRadius;
+  const Planar disc_side = along;
+  shape.opposite = count_opposite(scratch.seen, {along.second, -along.first});
   scratch.seen.emplace_back(0.0, 0.0);
   keep_hull(scratch.seen, scratch.hull);
   shape.depth = hull_depth(scratch.seen, nearest, along);
+  if (shape.depth > kSmallHoleDepth) {  // The hull spans a hole: the rim is where the disc touches.
+    nearest = {0.0, 0.0};
+    along = disc_side;
+  }
   for (int axis = 0; axis < 3; ++axis) {
     shape.direction[axis] = along.first * plane.e1[axis] + along.second * plane.e2[axis];
     shape.nearest[axis] =

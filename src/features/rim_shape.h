@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "features/plane_fit.h"
+#include "features/own_layer.h"
 
 namespace arris {
 
@@ -13,6 +13,7 @@ struct RimShape {
   double gap_deg = 0.0;  ///< Largest azimuth gap of the layer's points seen along its normal.
   double depth = 0.0;    ///< Distance from the point to the convex hull of the layer's points around it; 0 outside.
   double empty_radius = 0.0;  ///< Of the largest disc without points whose border touches the point.
+  double opposite = 0.0;      ///< Points within 3 on the other side than the empty disc, within 60 degrees.
   double count = 0.0;         ///< Azimuths.
   double inner_share =
       0;  ///< Of the layer's points, those in the inner half of the gate: 0.5 for a cloud, 0.87 for noise.
@@ -28,6 +29,7 @@ struct RimShape {
 struct RimScratch {
   std::vector<std::pair<double, double>> seen, inverted, hull;
   std::vector<double> azimuths;
+  LayerScratch layer;
 };
 
 /// The layer is found from the point outwards: a plane through its nearest neighbours, then refits on growing discs
@@ -35,7 +37,8 @@ struct RimScratch {
 /// the set of points only. O(n log n) in the layer's points.
 /// @param radius  of the disc that is judged, at most the ball's.
 /// @param noise   standard deviation of the points about their surface.
-/// Gaps of less than 105 degrees are no rim: then depth and empty_radius are left at 0, and mostly the gap too.
+/// Where neither the disc nor its inner 3 spacings may have a gap of 105 degrees, all but count, rms and width is left
+/// at 0.
 RimShape measure_rim(const BallPoints& points, double radius, double noise, RimScratch& scratch);
 
 }  // namespace arris

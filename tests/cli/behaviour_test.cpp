@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "support/arris_process.h"
@@ -254,6 +255,27 @@ TEST(Behaviour, ConfigFile_SetsOptionsAndTheCommandLineWins) {
   EXPECT_EQ(report["method"], "liu");
   EXPECT_EQ(report["parameters"]["k_min"], 25);
   EXPECT_EQ(report["parameters"]["gap_deg"], 110.0);
+}
+
+TEST(Behaviour, Thin_KeepsAChainOutOfTheContourPoints) {
+  const TempFolder folder;
+  ASSERT_EQ(
+      run_arris({"synth", "gable", "--noise", "0.02", "-o", folder / "in.las", "--truth", folder / "t.csv"}).exit_code,
+      0);
+  const auto extract = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"extract", folder / "in.las", "-o", folder / "out.las", "--overwrite", "-q"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(run_arris(arguments).exit_code, 0);
+    const LasView out = view_las(folder / "out.las");
+    std::set<std::string> originals;
+    for (std::uint64_t i = 0; i < out.points; ++i) originals.insert(std::string(out.record(i), out.record_bytes));
+    return originals;
+  };
+  const std::set<std::string> all = extract({});
+  const std::set<std::string> thin = extract({"--thin"});
+  EXPECT_LT(thin.size(), 0.9 * static_cast<double>(all.size()));
+  EXPECT_GT(thin.size(), all.size() / 4);
+  EXPECT_TRUE(std::includes(all.begin(), all.end(), thin.begin(), thin.end())) << "nothing new, nothing changed";
 }
 
 TEST(Behaviour, FullDisk_ExitsWith1AndLeavesNoOutput) {
