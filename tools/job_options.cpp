@@ -79,7 +79,7 @@ void add_contour_options(CLI::App& verb, JobOptions& o) {
   verb.add_flag("--no-fold", o.no_fold, "Skip the fold tests")->group(group);
   group = "Method arris";
   verb.add_option("--precision", o.precision,
-                  "Keep points whose EdgeScore is at least this: the probability that an edge is there (default 0: all)")
+                  "Keep points whose EdgeScore is at least this: the probability that an edge is there (default 0.3)")
       ->check(CLI::Range(0.0, 1.0))
       ->group(group);
   verb.add_flag("--thin", o.thin, "Keep one chain of points along each contour")->group(group);

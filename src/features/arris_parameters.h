@@ -10,7 +10,7 @@ namespace arris {
 struct ArrisParameters {
   double spacing = 0.0;     ///< > 0: one point spacing for all points; 0: estimated per point.
   double max_radius = 0.0;  ///< R_max > 0: points beyond it are not looked at. Resolved before any tile is run.
-  double min_score = 0.0;   ///< Contour points with a lower EdgeScore are dropped; [0, 1].
+  double min_score = 0.3;   ///< Contour points with a lower EdgeScore are dropped; [0, 1].
   bool boundary = true;     ///< Look for boundaries.
   bool fold = true;         ///< Look for folds.
   bool thin = false;        ///< Keep one chain of points along a contour instead of all within a spacing of it.
