@@ -54,13 +54,19 @@ constexpr double kMostDepth = 0.7;
 constexpr double kLeastEmptyRadius = 2.2;
 /// A hole that the disc of 5 spacings reaches across: an empty disc of this radius, and surface on its other side (scan
 /// lines far apart have empty discs on both sides).
-constexpr double kLeastHoleRadius = 2.5;
+constexpr double kLeastHoleRadius = 2.2;
 constexpr double kLeastOpposite = 4.0;
+constexpr double kHoleDepth = 0.5;
+/// Clouds are full of such discs: the layer must be thin.
+constexpr double kLeastHoleInnerShare = 0.9;
+constexpr double kMostHoleRms = 0.25;
 constexpr double kFalseAlarms = 1e-4;
 /// Narrower layers (rms across their longest direction, spacings) are single scan lines.
 constexpr double kLeastRimWidth = 0.7;
 constexpr double kLeastAzimuths = 8.0;
 constexpr double kLeastInnerShare = 0.7;
+/// A layer stands out from what is around it.
+constexpr double kMostBeyondShare = 0.5;
 /// Noise that two-plane fits show is partly bad fit; boundaries are judged with at most this much.
 constexpr double kUnknownNoise = 0.3;
 constexpr double kMostRimNoise = 0.3;
@@ -155,19 +161,20 @@ bool judge_fold(const LevelFit& fit, const BallPoints& points, PointContour& con
 
 bool judge_rim(const RimShape& rim, double noise, PointContour& contour) {
   if (rim.count < kLeastAzimuths || rim.inner_share < kLeastInnerShare || rim.offset > rim.gate) return false;
-  if (rim.width < kLeastRimWidth) return false;
+  if (rim.width < kLeastRimWidth || rim.beyond_share > kMostBeyondShare) return false;
   const bool open =
       rim.gap_deg >= std::max(kLeastGap_deg, significant_gap_deg(rim.count)) &&
       (rim.depth <= kMostDepth || rim.gap_deg >= kCertainGap_deg || rim.empty_radius >= kLeastEmptyRadius);
-  const bool small_hole = rim.empty_radius >= kLeastHoleRadius && rim.opposite >= kLeastOpposite;
+  const bool small_hole = rim.empty_radius >= kLeastHoleRadius && rim.opposite >= kLeastOpposite &&
+                          rim.inner_share >= kLeastHoleInnerShare && rim.rms <= kMostHoleRms;
   if (!open && !small_hole) return false;
   contour.kind = PointContour::Kind::kBoundary;
   contour.gap_deg = rim.gap_deg;
   contour.nearest = rim.nearest;
   contour.direction = rim.direction;
   RimEvidence evidence;
-  evidence.gap_deg = rim.gap_deg;
-  evidence.depth = rim.depth;
+  evidence.gap_deg = small_hole ? std::max(rim.gap_deg, kCertainGap_deg) : rim.gap_deg;  // The disc stands for both:
+  evidence.depth = small_hole ? std::min(rim.depth, kHoleDepth) : rim.depth;             // the ball reaches across.
   evidence.empty_radius = rim.empty_radius;
   evidence.count = rim.count;
   evidence.inner_share = rim.inner_share;

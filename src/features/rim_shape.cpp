@@ -113,11 +113,16 @@ RimShape measure_rim(const BallPoints& points, double radius, double noise, RimS
   std::uint32_t occupied_near = 0;
   double layer = 0.0;
   double inner = 0.0;
+  double beyond = 0.0;
   for (std::size_t i = 0; i < points.count; ++i) {
     const double x = points.x[i], y = points.y[i], z = points.z[i];
     const double d2 = x * x + y * y + z * z;
     const double off = std::fabs(plane.distance(x, y, z));
-    if (d2 > radius * radius || off > shape.gate) continue;
+    if (d2 > radius * radius) continue;
+    if (off > shape.gate) {
+      beyond += off <= 2.0 * shape.gate ? 1.0 : 0.0;
+      continue;
+    }
     layer += 1.0;
     inner += off <= 0.5 * shape.gate ? 1.0 : 0.0;
     const double u = plane.e1[0] * x + plane.e1[1] * y + plane.e1[2] * z;
@@ -133,6 +138,7 @@ RimShape measure_rim(const BallPoints& points, double radius, double noise, RimS
   }
   shape.count = static_cast<double>(scratch.inverted.size());
   shape.inner_share = layer > 0.0 ? inner / layer : 0.0;
+  shape.beyond_share = layer > 0.0 ? beyond / layer : 0.0;
   if (scratch.inverted.size() < 3 || !(may_have_gap(occupied) || may_have_gap(occupied_near))) return shape;
   for (Planar& p : scratch.inverted) {
     scratch.azimuths.push_back(angle_of(p.second, p.first));

@@ -17,10 +17,11 @@ struct RimShape {
   double count = 0.0;         ///< Azimuths.
   double inner_share =
       0;  ///< Of the layer's points, those in the inner half of the gate: 0.5 for a cloud, 0.87 for noise.
-  double offset = 0.0;         ///< Distance of the point to the layer's plane.
-  double gate = 0.0;           ///< Points farther from the plane belong to something else.
-  double rms = 0.0;            ///< Of the layer's points about its plane.
-  double width = 0.0;          ///< Spread of the layer across its longest direction: near 0 for strings of points.
+  double beyond_share = 0;  ///< Points between one and two gates from the plane, over those within: about 1 in a cloud.
+  double offset = 0.0;      ///< Distance of the point to the layer's plane.
+  double gate = 0.0;        ///< Points farther from the plane belong to something else.
+  double rms = 0.0;         ///< Of the layer's points about its plane.
+  double width = 0.0;       ///< Spread of the layer across its longest direction: near 0 for strings of points.
   Vector3 direction{1, 0, 0};  ///< Unit: of the side of the hull that is nearest.
   Vector3 nearest{0, 0, 0};  ///< The point of the hull that is nearest to the centre: the rim as far as it is sampled.
 };
