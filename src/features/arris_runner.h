@@ -7,7 +7,8 @@
 
 #include "core/lattice.h"
 #include "features/arris_parameters.h"
-#include "features/group_search.h"
+#include "features/ball_search.h"
+#include "features/neighbour_search.h"
 #include "features/point_analysis.h"
 #include "features/point_tree.h"
 #include "features/tile_contours.h"

@@ -5,10 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "features/ball_search.h"
 #include "features/contour_accumulator.h"
-#include "features/group_search.h"
 #include "features/liu_method.h"
 #include "features/liu_settings.h"
+#include "features/neighbour_search.h"
 #include "features/point_tree.h"
 
 namespace arris {

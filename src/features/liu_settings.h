@@ -7,9 +7,9 @@
 #include "features/azimuth_gap.h"
 #include "features/entropy_scale.h"
 #include "features/fold_test.h"
-#include "features/group_search.h"
 #include "features/liu_parameters.h"
 #include "features/local_spacing.h"
+#include "features/neighbour_search.h"
 
 namespace arris {
 

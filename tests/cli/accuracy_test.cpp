@@ -43,6 +43,13 @@ INSTANTIATE_TEST_SUITE_P(Arris, PlatesBoundary,
                                            Promise{"arris", "grid", "0.25", "0", 0.98},
                                            Promise{"arris", "grid", "0.25", "0.05", 0.945}));
 
+TEST(Accuracy, LayersTwoSpacingsApart_KeepTheirBorders) {
+  const Accuracy found = accuracy("arris", {"plates", "--spacing", "0.1", "--set", "gap_spacings=2"},
+                                  {"--edges", "boundaries", "--classes", "boundary"});
+  EXPECT_GE(found.precision, 0.97);
+  EXPECT_GE(found.f1, 0.85);
+}
+
 TEST(Accuracy, ScannedTown_WhatIsFoundIsRight) {
   const Accuracy found = accuracy("arris", {"town", "--points", "300000", "--noise", "2mm"}, {"--local-spacing"});
   EXPECT_GE(found.precision, 0.92);

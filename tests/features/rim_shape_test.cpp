@@ -111,7 +111,7 @@ TEST(RimShape, Hole_LeavesADiscOfItsSizeEmpty) {
 }
 
 TEST(RimShape, SecondLayer_DoesNotFillTheGap) {
-  for (const double gap : {3.0, 4.0}) {
+  for (const double gap : {2.0, 3.0, 4.0}) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       std::vector<Vector3> cloud = around(test::layer_points(gap, seed), {0, -0.5, 0},
                                           [](const Vector3& p) { return p[2] > 1.0 || p[1] < 0.0; });
