@@ -133,8 +133,7 @@ void ArrisRunner::test(const CandidateSet<T>& candidates, const BallQuery<T>& qu
   prospects.rms = whole.rms;
   prospects.near_rms = whole.rms;
   prospects.off_centre = whole.off_centre;
-  prospects.flat = whole.rms < kFlatRms;
-  if (prospects.flat) {
+  if (whole.rms < kFlatRms) {
     if (whole.off_centre < kCentredShare) return;
     prospects.fold = false;
   } else {

@@ -51,7 +51,6 @@ struct PointProspects {
   double near_rms = 0.0;    ///< Of the near ball.
   double off_centre = 1.0;  ///< Distance of the mean of the first ball from its centre, radii.
   bool fold = true;         ///< Folds are possible.
-  bool flat = false;        ///< The first ball is flat.
 };
 
 /// Reusable memory.

@@ -26,7 +26,6 @@ constexpr double kMostEmptyRadius = 100.0;
 /// Azimuths fall into 32 bins of the pseudo-angle v / (|u| + |v|), 8 per quadrant. A quarter turn is 8 bins wherever it
 /// begins, and what 105 degrees have beyond it is more than one bin: such a gap leaves 8 bins in a row empty.
 constexpr double kBinsPerQuadrant = 8.0;
-constexpr double kLeastGap_deg = 105.0;
 
 std::uint32_t azimuth_bin(double u, double v) {
   const double share = kBinsPerQuadrant * std::fabs(v) / (std::fabs(u) + std::fabs(v));
