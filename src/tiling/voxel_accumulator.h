@@ -1,0 +1,44 @@
+#pragma once
+/// @file Reduces a stream of points of any length to voxels, in bounded memory.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "core/voxel.h"
+#include "tiling/voxel_store.h"
+
+namespace arris::tiling {
+
+/// Sums points per voxel in a hash table. When the table is full it is written out as a run, sorted in Z-order of
+/// voxels; finish() merges the runs. Sums are integers, so the voxels depend on the set of points only, not on their
+/// order, the size of the table or the number of runs.
+///
+/// Memory: table_bytes, during add() as during finish(). Temporary disk: at most 80 bytes per entry of a run (as many
+/// as there are voxels when neighbours in the input are neighbours in space, as many as points at worst). Not
+/// thread-safe.
+class VoxelAccumulator {
+ public:
+  struct Options {
+    std::filesystem::path folder;                   ///< Existing; runs and the store go here.
+    std::size_t table_bytes = 32U * 1024U * 1024U;  ///< >= 1 MiB.
+  };
+  VoxelAccumulator(const VoxelGrid& grid, Options options);
+  ~VoxelAccumulator();
+  VoxelAccumulator(const VoxelAccumulator&) = delete;
+  VoxelAccumulator& operator=(const VoxelAccumulator&) = delete;
+
+  /// @param colours  as many as positions, or none.
+  void add(std::span<const LatticePoint> positions, std::span<const RawColour> colours = {});
+  /// Completes the voxels; call once, then add() no more. Throws IoError; BudgetError if there are 2^32 - 1 or more.
+  VoxelStore finish();
+  std::uint64_t bytes_on_disk() const;  ///< Of runs and store, at most so far.
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace arris::tiling
