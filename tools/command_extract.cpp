@@ -62,10 +62,10 @@ int run_extract(ExtractOptions& o, const CLI::App& verb, Session& session) {
   request.mixed_crs = o.mixed_crs;
   request.refined = o.refined;
   request.hash_inputs = !o.report.empty();
-  ProgressDisplay display(o.job.display.mode(), o.job.display.verbosity());
+  ProgressDisplay display(o.job.run.display.mode(), o.job.run.display.verbosity());
   const pipeline::ExtractReport report = pipeline::extract(request, display, session.cancel);
   display.finish();
-  display.note(describe_choices(report, o.job.memory_why));
+  display.note(describe_choices(report, o.job.run.memory_why));
   display.note(describe_result(report));
   if (!o.report.empty()) write_text(o.report, to_json(report).dump(2) + "\n", o.overwrite);
   return 0;
@@ -96,10 +96,10 @@ std::string describe_plan(const pipeline::ExtractReport& r, const std::string& m
 
 int run_plan(ExtractOptions& o, const CLI::App& verb, Session& session) {
   const pipeline::ExtractRequest request = to_request(o.job, verb);
-  ProgressDisplay display(o.job.display.mode(), o.job.display.verbosity());
+  ProgressDisplay display(o.job.run.display.mode(), o.job.run.display.verbosity());
   const pipeline::ExtractReport report = pipeline::plan_only(request, display, session.cancel);
   display.finish();
-  write_text("-", o.json ? to_json(report).dump(2) + "\n" : describe_plan(report, o.job.memory_why), false);
+  write_text("-", o.json ? to_json(report).dump(2) + "\n" : describe_plan(report, o.job.run.memory_why), false);
   return 0;
 }
 

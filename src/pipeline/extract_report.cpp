@@ -2,9 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/version.h"
-#include "pipeline/libraries.h"
-
 namespace arris::pipeline {
 namespace {
 
@@ -53,27 +50,13 @@ Json parameters_json(const ContourParameters& p) {
 }  // namespace
 
 Json to_json(const ExtractReport& r) {
-  Json json;
-  json["schema"] = "arris-extract-report/1";
-  json["arris"] = kVersion;
-  json["libraries"] = pipeline::library_versions();
+  Json json = report_head(r, "arris-extract-report/1");
   json["method"] = r.parameters.name();
   json["parameters"] = parameters_json(r.parameters);
-  json["lattice"] = {{"step", r.lattice.step}, {"origin", r.lattice.origin}};
-  json["spacing"] = r.spacing;
-  for (const InputReport& input : r.inputs) {
-    Json entry{{"path", input.path}, {"layout", input.layout}, {"points", input.points}, {"bytes", input.size_bytes}};
-    if (!input.hash.empty()) entry["xxh3_64"] = input.hash;
-    json["inputs"].push_back(entry);
-  }
-  json["outputs"] = r.outputs;
   json["points"] = {{"in", r.points_in},
                     {"out", r.points_out},
                     {"not_contour", r.not_contour},
-                    {"dropped",
-                     {{"non_finite", r.dropped_nonfinite},
-                      {"out_of_range", r.dropped_out_of_range},
-                      {"excluded", r.dropped_excluded}}}};
+                    {"dropped", dropped_json(r)}};
   json["edges"] = {
       {"boundary", r.boundary}, {"weak_boundary", r.weak_boundary}, {"fold", r.fold}, {"isolated_points", r.isolated}};
   json["tiles"] = {{"count", r.tiles},
@@ -83,15 +66,7 @@ Json to_json(const ExtractReport& r) {
                    {"halo", {{"least", r.least_halo}, {"widest", r.widest_halo}}},
                    {"duplication", r.duplication},
                    {"widened_queries", r.widened_queries}};
-  json["threads"] = r.threads;
-  json["memory"] = {{"budget_bytes", r.memory_budget_bytes},
-                    {"predicted_peak_bytes", r.predicted_peak_bytes},
-                    {"measured_peak_bytes", r.peak_resident_bytes}};
-  json["temp"] = {{"predicted_bytes", r.predicted_temp_bytes}, {"measured_peak_bytes", r.peak_temp_bytes}};
-  for (const auto& [phase, seconds] : r.seconds) json["seconds"][phase] = seconds;
-  json["cpu_seconds"] = r.cpu_seconds;
-  json["warnings"] = Json::array();
-  for (const WarningReport& w : r.warnings) json["warnings"].push_back({{"code", w.code}, {"text", w.text}});
+  append_report_tail(json, r);
   return json;
 }
 

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "features/contour_method.h"
-#include "pipeline/run_folder.h"
+#include "pipeline/run_support.h"
 
 namespace arris::pipeline {
 namespace {
@@ -27,23 +27,6 @@ double resolve_max_radius(const ContourParameters& method, const tiling::Survey&
   const double spacing = method.spacing() > 0.0 ? method.spacing() : survey.spacing;
   const double most = kMostRadiusSteps * survey.lattice.step;
   return std::min(most, std::max({kMaxRadiusSpacings * spacing, method.fixed_radius(), 4.0 * survey.lattice.step}));
-}
-
-void check_temp_space(const JobPlan& plan, const ExtractRequest& request, ProgressSink& progress) {
-  const TempSpace space = temp_space(request.temp_dir);
-  const std::uint64_t limit =
-      request.max_temp_bytes > 0 ? std::min(request.max_temp_bytes, space.free_bytes) : space.free_bytes;
-  if (plan.predicted_temp_bytes > limit) {
-    throw BudgetError(fmt::format(
-        "temporary files need about {} but {} allows {}; free space, raise --max-temp or choose another --temp-dir",
-        human_bytes(plan.predicted_temp_bytes), request.temp_dir.string(), human_bytes(limit)));
-  }
-  if (space.in_memory) {
-    progress.warning("temp-in-memory",
-                     fmt::format("{} is a file system in memory: temporary files count as memory; choose "
-                                 "another --temp-dir",
-                                 request.temp_dir.string()));
-  }
 }
 
 }  // namespace
@@ -81,23 +64,14 @@ JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSi
       static_cast<std::uint64_t>(stored * (kSpoolBytesPerPoint + kTileFileBytesPerPoint) +
                                  static_cast<double>(plan.survey.points()) * kResultBytesPerPoint) +
       plan.tiles.tiles.size() * 64 * 1024;
-  check_temp_space(plan, request, progress);
+  check_temp_space(plan.predicted_temp_bytes, request, progress);
   return plan;
 }
 
 void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const ExtractRequest& request,
                    ExtractReport& report) {
+  describe_inputs(plan.survey, inputs, request, report);
   report.parameters = plan.method;
-  report.lattice = plan.survey.lattice;
-  report.bounds = plan.survey.bounds;
-  report.spacing = plan.survey.spacing;
-  for (const io::SourceInfo& source : inputs.sources()) {
-    report.inputs.push_back({source.path.string(), source.layout, source.points, source.size_bytes, ""});
-  }
-  report.points_in = plan.survey.points_in;
-  report.dropped_nonfinite = plan.survey.dropped_nonfinite;
-  report.dropped_out_of_range = plan.survey.dropped_out_of_range;
-  report.dropped_excluded = plan.survey.dropped_excluded;
   report.tiles = plan.tiles.tiles.size();
   report.largest_tile_points = plan.tiles.largest_covered_points;
   report.tile_points_limit = plan.memory.max_tile_points;
@@ -111,8 +85,6 @@ void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const Extrac
   }
   report.least_halo = static_cast<double>(least) * plan.survey.lattice.step;
   report.widest_halo = static_cast<double>(widest) * plan.survey.lattice.step;
-  report.threads = request.threads;
-  report.memory_budget_bytes = request.memory_bytes;
   report.predicted_peak_bytes = plan.predicted_peak_bytes;
   report.predicted_temp_bytes = plan.predicted_temp_bytes;
 }
