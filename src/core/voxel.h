@@ -22,12 +22,13 @@ class VoxelGrid {
   std::int32_t side_steps() const { return side_steps_; }
 
   std::int32_t voxel_of(std::int32_t position) const {
-    // The product is off by less than 1e-6 voxels: one comparison repairs the floor.
-    auto voxel = static_cast<std::int32_t>(static_cast<double>(position) * inverse_);
-    const std::int64_t below = std::int64_t{position} - std::int64_t{voxel} * side_steps_;
-    voxel -= below < 0;
-    voxel += below >= side_steps_;
-    return voxel;
+    // The product is off by less than 1e-6 voxels: one comparison repairs the floor. The rest is known to be small, so
+    // it is computed modulo 2^32, which compilers vectorise.
+    const auto voxel = static_cast<std::int32_t>(static_cast<double>(position) * inverse_);
+    const auto rest =
+        static_cast<std::int32_t>(static_cast<std::uint32_t>(position) -
+                                  static_cast<std::uint32_t>(voxel) * static_cast<std::uint32_t>(side_steps_));
+    return voxel - (rest < 0 ? 1 : 0) + (rest >= side_steps_ ? 1 : 0);
   }
   LatticePoint voxel_of(const LatticePoint& p) const { return {voxel_of(p.x), voxel_of(p.y), voxel_of(p.z)}; }
   /// Lowest lattice position of a voxel along one axis; may lie below int32.

@@ -23,7 +23,7 @@ class VoxelAccumulator {
  public:
   struct Options {
     std::filesystem::path folder;                   ///< Existing; runs and the store go here.
-    std::size_t table_bytes = 32U * 1024U * 1024U;  ///< >= 1 MiB.
+    std::size_t table_bytes = 32U * 1024U * 1024U;  ///< >= 1 MiB; less works, but takes more than was said.
   };
   VoxelAccumulator(const VoxelGrid& grid, Options options);
   ~VoxelAccumulator();

@@ -1,0 +1,90 @@
+#pragma once
+/// @file Which voxels exist, in memory.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/lattice.h"
+#include "tiling/growing_array.h"
+
+namespace arris::tiling {
+
+/// Which voxels exist, and the rank of each in Z-order (morton.h). Blocks of 8x8x8 voxels with a bit per voxel: about
+/// 105 bytes per block, 1.5 to 3 bytes per voxel of a surface. Immutable once filled; reading is thread-safe.
+class VoxelIndex {
+ public:
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+
+  /// Keys in strictly ascending Z-order, fewer than 2^32 - 1.
+  void append(const LatticePoint& key);
+  /// Call after the last append().
+  void finish();
+
+  std::uint32_t size() const { return size_; }
+  /// Rank of the voxel, kNone if it does not exist. O(1); fast for neighbours of the voxel asked for last if `hint`
+  /// (any value at first, kept by the caller, one per thread) is passed.
+  std::uint32_t rank(const LatticePoint& key, std::uint32_t& hint) const {
+    const LatticePoint block{key.x >> kLog2, key.y >> kLog2, key.z >> kLog2};
+    if (hint >= blocks_.size() || !(blocks_[hint].key == block)) {
+      const std::uint32_t found = find(block);
+      if (found == kNone) return kNone;
+      hint = found;
+    }
+    const Entry& entry = blocks_[hint];
+    const std::uint32_t place = place_in_block(key);
+    const std::uint64_t word = entry.words[place >> 6];
+    const std::uint64_t bit = std::uint64_t{1} << (place & 63);
+    if ((word & bit) == 0) return kNone;
+    return entry.first_rank + entry.before[place >> 6] + ones(word & (bit - 1));
+  }
+  std::uint32_t rank(const LatticePoint& key) const {
+    std::uint32_t hint = 0;
+    return rank(key, hint);
+  }
+  /// Of the keys, half-open; empty if there are none.
+  const LatticeBox& bounds() const { return bounds_; }
+  std::uint64_t memory_bytes() const { return blocks_.memory_bytes() + slots_.size() * sizeof(std::uint32_t); }
+
+  struct Block {
+    LatticePoint key;          ///< Voxel keys >> 3.
+    std::uint32_t first_rank;  ///< Ranks of a block are consecutive.
+    std::uint32_t voxels;
+  };
+  std::size_t blocks() const { return blocks_.size(); }
+  Block block(std::size_t i) const;  ///< In Z-order.
+
+ private:
+  static constexpr int kLog2 = 3;
+  struct Entry {
+    LatticePoint key;
+    std::uint32_t first_rank;
+    std::array<std::uint64_t, 8> words;   // A bit per voxel, in Z-order.
+    std::array<std::uint16_t, 8> before;  // Voxels in the words before.
+  };
+
+  static std::uint32_t place_in_block(const LatticePoint& key) {
+    constexpr std::array<std::uint8_t, 8> kSpread{0, 1, 8, 9, 64, 65, 72, 73};
+    return std::uint32_t{kSpread[key.x & 7]} << 2 | std::uint32_t{kSpread[key.y & 7]} << 1 | kSpread[key.z & 7];
+  }
+  // std::popcount is a call on processors without the instruction.
+  static std::uint32_t ones(std::uint64_t v) {
+    v -= v >> 1 & 0x5555555555555555U;
+    v = (v & 0x3333333333333333U) + (v >> 2 & 0x3333333333333333U);
+    v = (v + (v >> 4)) & 0x0f0f0f0f0f0f0f0fU;
+    return static_cast<std::uint32_t>(v * 0x0101010101010101U >> 56);
+  }
+  std::uint32_t find(const LatticePoint& block) const;
+
+  std::uint32_t size_ = 0;
+  LatticeBox bounds_;
+  LatticePoint least_, most_;
+  GrowingArray<Entry> blocks_;
+  // Open addressing over blocks_: the low index_bits_ bits are the index, all ones if the slot is free; the bits above
+  // are low bits of the hash, so that other blocks are seldom looked at.
+  std::vector<std::uint32_t> slots_;
+  int index_bits_ = 0;
+};
+
+}  // namespace arris::tiling

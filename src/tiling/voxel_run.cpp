@@ -1,0 +1,71 @@
+#include "tiling/voxel_run.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <utility>
+
+namespace arris::tiling {
+namespace {
+
+std::vector<std::byte> buffer_for(std::size_t record_bytes, std::size_t bytes) {
+  return std::vector<std::byte>(std::max<std::size_t>(bytes / record_bytes, 1) * record_bytes);
+}
+
+}  // namespace
+
+VoxelRun::VoxelRun(std::filesystem::path path, bool colours, std::size_t buffer_bytes)
+    : file_(std::move(path)),
+      record_bytes_(colours ? sizeof(VoxelRecord) : sizeof(VoxelSums)),
+      buffer_(buffer_for(record_bytes_, buffer_bytes)),
+      hasher_(std::in_place) {}
+
+void VoxelRun::put(const VoxelRecord& record) {
+  std::memcpy(buffer_.data() + used_, &record, record_bytes_);
+  used_ += record_bytes_;
+}
+
+void VoxelRun::get(VoxelRecord& record) {
+  record.colour = {};
+  std::memcpy(&record, buffer_.data() + used_, record_bytes_);
+  used_ += record_bytes_;
+}
+
+void VoxelRun::flush() {
+  const auto bytes = std::span<const std::byte>(buffer_).first(used_);
+  hasher_->update(bytes.data(), bytes.size());
+  file_.append(bytes);
+  used_ = 0;
+}
+
+void VoxelRun::close() {
+  flush();
+  digest_ = hasher_->digest();
+  hasher_.reset();
+  file_.close();
+  buffer_ = {};
+}
+
+void VoxelRun::open(std::size_t buffer_bytes) {
+  file_.reopen();
+  hasher_.emplace();
+  buffer_ = buffer_for(record_bytes_, buffer_bytes);
+  position_ = 0;
+  used_ = filled_ = 0;
+}
+
+bool VoxelRun::refill() {
+  filled_ = static_cast<std::size_t>(std::min<std::uint64_t>(buffer_.size(), file_.size_bytes() - position_));
+  used_ = 0;
+  if (filled_ == 0) {
+    if (hasher_->digest() != digest_) file_.throw_damaged();
+    return false;
+  }
+  const auto bytes = std::span(buffer_).first(filled_);
+  file_.read_at(position_, bytes);
+  hasher_->update(bytes.data(), bytes.size());
+  position_ += filled_;
+  return true;
+}
+
+}  // namespace arris::tiling

@@ -1,0 +1,57 @@
+#pragma once
+/// @file Sorted runs of sums of voxels on disk.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "tiling/checked_file.h"
+#include "tiling/scratch_file.h"
+#include "tiling/voxel_sums.h"
+
+namespace arris::tiling {
+
+/// A run: written once in Z-order, read once. 28 bytes per record, 40 with colours; hashed on the way out and in.
+/// Removes its file on destruction. Throws IoError.
+class VoxelRun {
+ public:
+  VoxelRun(std::filesystem::path path, bool colours, std::size_t buffer_bytes);
+
+  void append(const VoxelRecord& record) {
+    if (used_ + record_bytes_ > buffer_.size()) flush();
+    put(record);
+  }
+  /// Ends writing; frees the buffer and the descriptor.
+  void close();
+
+  /// Begins reading.
+  void open(std::size_t buffer_bytes);
+  /// The next record; false at the end, after the whole run was verified.
+  bool read(VoxelRecord& record) {
+    if (used_ == filled_ && !refill()) return false;
+    get(record);
+    return true;
+  }
+
+  bool has_colours() const { return record_bytes_ == sizeof(VoxelRecord); }
+  std::uint64_t size_bytes() const { return file_.size_bytes(); }
+
+ private:
+  void put(const VoxelRecord& record);
+  void get(VoxelRecord& record);
+  void flush();
+  bool refill();
+
+  ScratchFile file_;
+  std::size_t record_bytes_;
+  std::vector<std::byte> buffer_;
+  std::size_t used_ = 0;    // Bytes of the buffer written or read.
+  std::size_t filled_ = 0;  // Bytes of the buffer that hold records to read.
+  std::uint64_t position_ = 0;
+  std::optional<Hasher> hasher_;  // While the run is open.
+  std::uint64_t digest_ = 0;
+};
+
+}  // namespace arris::tiling
