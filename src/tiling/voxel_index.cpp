@@ -53,7 +53,7 @@ void VoxelIndex::finish() {
   }
 }
 
-std::uint32_t VoxelIndex::find(const LatticePoint& block) const {
+std::uint32_t VoxelIndex::find_block(const LatticePoint& block) const {
   const std::size_t slots = slots_.size();
   if (slots == 0) return kNone;
   const std::uint32_t hash = voxel_hash(block);

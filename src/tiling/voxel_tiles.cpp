@@ -1,67 +1,15 @@
 #include "tiling/voxel_tiles.h"
 
 #include <algorithm>
-#include <bit>
-#include <limits>
-#include <numeric>
 
 #include "core/parallel.h"
+#include "tiling/voxel_neighbours.h"
 
 namespace arris::tiling {
 namespace {
 
 constexpr std::size_t kGrain = 16 * 1024;
 constexpr int kBlockLevel = 3;  // Of VoxelIndex.
-constexpr int kAround = 27;
-constexpr int kSelf = 13;
-
-/// The voxel at offset `i` of the 27, in ascending (dx, dy, dz); false beyond int32.
-bool neighbour_key(const LatticePoint& key, int i, LatticePoint& neighbour) {
-  const std::int64_t x = std::int64_t{key.x} + i / 9 - 1;
-  const std::int64_t y = std::int64_t{key.y} + i / 3 % 3 - 1;
-  const std::int64_t z = std::int64_t{key.z} + i % 3 - 1;
-  const auto fits = [](std::int64_t v) {
-    return v >= std::numeric_limits<std::int32_t>::min() && v <= std::numeric_limits<std::int32_t>::max();
-  };
-  if (!fits(x) || !fits(y) || !fits(z)) return false;
-  neighbour = {static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), static_cast<std::int32_t>(z)};
-  return true;
-}
-
-std::uint32_t existing_neighbours(const VoxelIndex& index, const LatticePoint& key, std::uint32_t& hint) {
-  std::uint32_t mask = 0;
-  for (int i = 0; i < kAround; ++i) {
-    LatticePoint at;
-    if (i != kSelf && neighbour_key(key, i, at) && index.rank(at, hint) != VoxelIndex::kNone) mask |= 1U << i;
-  }
-  return mask;
-}
-
-/// @param index  of exactly the tile's voxels.
-void link_neighbours(VoxelTile& tile, const VoxelIndex& index) {
-  std::vector<std::uint32_t> masks(tile.size());
-  parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::uint32_t hint = 0;
-    for (std::size_t v = begin; v < end; ++v) masks[v] = existing_neighbours(index, tile.keys[v], hint);
-  });
-  tile.neighbour_begin.resize(tile.size() + 1);
-  tile.neighbour_begin[0] = 0;
-  for (std::size_t v = 0; v < tile.size(); ++v)
-    tile.neighbour_begin[v + 1] = tile.neighbour_begin[v] + static_cast<std::uint32_t>(std::popcount(masks[v]));
-  tile.neighbours.resize(tile.neighbour_begin.back());
-  parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::uint32_t hint = 0;
-    for (std::size_t v = begin; v < end; ++v) {
-      std::uint32_t* to = &tile.neighbours[tile.neighbour_begin[v]];
-      for (std::uint32_t mask = masks[v]; mask != 0; mask &= mask - 1) {
-        LatticePoint at;
-        neighbour_key(tile.keys[v], std::countr_zero(mask), at);
-        *to++ = index.rank(at, hint);
-      }
-    }
-  });
-}
-
 }  // namespace
 
 TilePlan plan_voxel_tiles(const VoxelIndex& index, const VoxelPlanRequest& request) {
