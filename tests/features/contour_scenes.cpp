@@ -36,8 +36,10 @@ class Builder {
         Point p = at(u, v);
         for (double& c : p) c += sampling_.noise * s * noise(random_);
         scene_.points.push_back(p);
+        scene_.faces.push_back(faces_);
       }
     }
+    ++faces_;
   }
 
   void curve(double length, const std::function<Point(double)>& at) {
@@ -63,6 +65,7 @@ class Builder {
  private:
   Sampling sampling_;
   std::mt19937_64 random_;
+  std::uint32_t faces_ = 0;
   Scene scene_;
 };
 

@@ -14,6 +14,7 @@ using Point = std::array<double, 3>;
 
 struct Scene {
   std::vector<Point> points;
+  std::vector<std::uint32_t> faces;  ///< Number of the surface that each point was sampled from.
   std::vector<Point> truth;  ///< Contours, sampled every half spacing.
   double spacing = 0.0;
 };

@@ -1,0 +1,143 @@
+#include "features/zheng_runner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/columns.h"
+#include "features/group_box.h"
+#include "features/mutual_nearest.h"
+#include "features/supervoxel_pair.h"
+#include "features/zheng_score.h"
+
+namespace arris {
+
+template <class Test>
+void ZhengRunner::for_each_run(Test&& test) {
+  for (std::size_t begin = 0; begin < queries_.size();) {
+    std::size_t end = begin + 1;
+    while (end < queries_.size() && queries_[end].label == queries_[begin].label) ++end;
+    test(Run(queries_).subspan(begin, end - begin), *group_.part(queries_[begin].label));
+    begin = end;
+  }
+}
+
+void ZhengRunner::run(std::span<const std::uint32_t> slots) {
+  queries_.clear();
+  for (const std::uint32_t slot : slots) {
+    if (task_.labels[slot] != 0) queries_.push_back({task_.labels[slot], slot, {}});
+  }
+  if (queries_.empty()) return;
+  const ClosedBox box =
+      detail::box_of(task_.tree, std::span<const Query>(queries_), [](const Query& query) { return query.slot; });
+  std::sort(queries_.begin(), queries_.end(),
+            [](const Query& a, const Query& b) { return a.label != b.label ? a.label < b.label : a.slot < b.slot; });
+  if (task_.settings.parameters.boundary) find_borders(box);
+  if (task_.settings.parameters.fold) find_contacts(box);
+  for (Query& query : queries_) {
+    if (query.record.classes == 0) continue;
+    query.record.id = task_.tree.id(query.slot);
+    found_.push_back({query.slot, query.record});
+  }
+}
+
+void ZhengRunner::find_borders(const ClosedBox& box) {
+  const ZhengLengths& lengths = task_.settings.typical;
+  group_.gather(task_.tree, task_.labels, box, std::max(2.0 * lengths.alpha, lengths.seam));
+  for_each_run([this](Run run, const LabelledPart& own) { test_borders(run, own); });
+}
+
+void ZhengRunner::test_borders(Run run, const LabelledPart& own) {
+  const ZhengLengths lengths = task_.settings.lengths(task_.table, own.label);
+  const SupervoxelFrame frame = supervoxel_frame(task_.table, own.label);
+  if (frame.defined) project(own, frame);
+  for (Query& query : run) {
+    const Vector3 at = group_.relative(task_.tree, query.slot);
+    const double free_deg = frame.defined ? exposure_deg(own, frame, at, lengths.alpha) : 360.0;
+    if (free_deg == 0.0 || near_neighbour(own, at, lengths.seam)) continue;
+    query.record.classes |= kBoundary;
+    query.record.gap_deg = static_cast<float>(free_deg);
+    query.record.score = std::max(query.record.score, border_score(free_deg, lengths));
+  }
+}
+
+void ZhengRunner::project(const LabelledPart& own, const SupervoxelFrame& frame) {
+  const std::size_t n = own.end - own.begin;
+  for (auto* column : {&a_, &b_, &w_}) column->resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = group_.x()[own.begin + i];
+    const double y = group_.y()[own.begin + i];
+    const double z = group_.z()[own.begin + i];
+    a_[i] = frame.u[0] * x + frame.u[1] * y + frame.u[2] * z;
+    b_[i] = frame.v[0] * x + frame.v[1] * y + frame.v[2] * z;
+    w_[i] = frame.n[0] * x + frame.n[1] * y + frame.n[2] * z;
+  }
+}
+
+double ZhengRunner::exposure_deg(const LabelledPart& own, const SupervoxelFrame& frame, const Vector3& at,
+                                 double alpha) {
+  const std::size_t size = own.end - own.begin;
+  if (neighbours_.a.size() < size) {
+    neighbours_.a.resize(size);
+    neighbours_.b.resize(size);
+  }
+  const double a = dot(frame.u, at);
+  const double b = dot(frame.v, at);
+  const double w = dot(frame.n, at);
+  const double unit = 1.0 / (2.0 * alpha);
+  const double most_d2 = 4.0 * alpha * alpha;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    // Without branches: every point is written, and the end advances past neighbours only.
+    const double da = a_[i] - a;
+    const double db = b_[i] - b;
+    const double dw = w_[i] - w;
+    neighbours_.a[n] = da * unit;
+    neighbours_.b[n] = db * unit;
+    n += da * da + db * db + dw * dw < most_d2;
+  }
+  neighbours_.count = n;
+  return exposed_(neighbours_);
+}
+
+/// True if a point of an adjacent supervoxel is no farther than `distance`.
+bool ZhengRunner::near_neighbour(const LabelledPart& own, const Vector3& at, double distance) const {
+  for (const LabelledPart& other : group_.parts()) {
+    if (other.label == own.label || !task_.table.adjacent(own.label, other.label)) continue;
+    if (std::isfinite(nearest_in(task_.tree, group_, other, at, distance * distance).d2)) return true;
+  }
+  return false;
+}
+
+void ZhengRunner::find_contacts(const ClosedBox& box) {
+  group_.gather(task_.tree, task_.labels, box, 2.0 * task_.settings.typical.cap);
+  if (group_.parts().size() < 2) return;
+  for_each_run([this](Run run, const LabelledPart& own) {
+    for (const LabelledPart& other : group_.parts()) {
+      if (other.label == own.label || !task_.table.adjacent(own.label, other.label)) continue;
+      const double angle_deg = normal_angle_deg(task_.table, own.label, other.label);
+      if (angle_deg > task_.settings.parameters.angle_deg) test_contacts(run, own, other, angle_deg);
+    }
+  });
+}
+
+void ZhengRunner::test_contacts(Run run, const LabelledPart& own, const LabelledPart& other, double angle_deg) {
+  const double cap = task_.settings.typical.cap;
+  const Vector3 origin = group_.origin();
+  for (Query& query : run) {
+    const NearestPoint partner = mutual_nearest(task_.tree, group_, query.slot, own, other, cap * cap);
+    if (!std::isfinite(partner.d2)) continue;
+    const Vector3 here = group_.relative(task_.tree, query.slot);
+    const Vector3 there = group_.at(partner.index);
+    Vector3 contact;
+    for (std::size_t axis = 0; axis < 3; ++axis) contact[axis] = origin[axis] + 0.5 * (here[axis] + there[axis]);
+    ContourRecord record;
+    record.classes = kSupervoxelContact | kFold;
+    record.votes = 1;
+    record.fold_strength = static_cast<float>(angle_deg / task_.settings.parameters.angle_deg);
+    record.fold_angle_deg = static_cast<float>(interior_angle_deg(task_.table, own.label, other.label, contact));
+    record.score = contact_score(std::sqrt(partner.d2), angle_deg, task_.settings);
+    combine(query.record, record);
+  }
+}
+
+}  // namespace arris

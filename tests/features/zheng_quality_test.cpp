@@ -1,0 +1,92 @@
+// How well the contours of supervoxels follow scenes whose contours are known.
+
+#include <gtest/gtest.h>
+
+#include "contour_scenes.h"
+#include "core/columns.h"
+#include "features/zheng_method.h"
+#include "supervoxel_scenes.h"
+
+namespace arris {
+namespace {
+
+using test::Sampling;
+using test::Scene;
+using test::Score;
+using test::SupervoxelShape;
+
+constexpr double kStep = 0.001;
+
+std::vector<ContourRecord> contours_of(const Scene& scene, const SupervoxelShape& shape, bool improved) {
+  const TilePoints tile = test::tile_of(scene, kStep);
+  const test::Supervoxels supervoxels = supervoxels_of(scene, tile, kStep, shape);
+  ZhengParameters parameters;
+  parameters.spacing = scene.spacing;
+  parameters.improved = improved;
+  return extract_zheng(tile, supervoxels.labels, supervoxels.table, {kStep, {0.0, 0.0, 0.0}}, parameters).records;
+}
+
+struct Case {
+  bool improved;
+  bool whole_voxels;
+  bool random;
+  double noise;
+  double least_block;
+  double least_plates;
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << (c.improved ? "improved" : "literal") << (c.whole_voxels ? ", voxels" : ", faces")
+       << (c.random ? ", random" : ", jittered") << ", noise " << c.noise;
+}
+
+class ZhengQuality : public testing::TestWithParam<Case> {
+ protected:
+  Sampling sampling() const {
+    Sampling sampling;
+    sampling.noise = GetParam().noise;
+    sampling.random = GetParam().random;
+    return sampling;
+  }
+  SupervoxelShape shape() const {
+    SupervoxelShape shape;
+    shape.whole_voxels = GetParam().whole_voxels;
+    return shape;
+  }
+};
+
+TEST_P(ZhengQuality, Block_ReachesTheBar) {
+  const Scene scene = test::block_scene(sampling());
+  const auto records = contours_of(scene, shape(), GetParam().improved);
+  const Score folds = score(scene, records, kFold, 2.0 * scene.spacing);
+  const Score all = score(scene, records, kFold | kBoundary, 2.0 * scene.spacing);
+  RecordProperty("f1", std::to_string(all.f1()));
+  std::printf("%s block: folds p %.3f r %.3f f1 %.3f; all p %.3f r %.3f f1 %.3f\n",
+              testing::PrintToString(GetParam()).c_str(), folds.precision, folds.recall, folds.f1(), all.precision,
+              all.recall, all.f1());
+  EXPECT_GE(all.f1(), GetParam().least_block) << "precision " << all.precision << " recall " << all.recall;
+}
+
+TEST_P(ZhengQuality, Plates_ReachTheBar) {
+  const Scene scene = test::plates_scene(sampling(), 4.0);
+  const auto records = contours_of(scene, shape(), GetParam().improved);
+  const Score all = score(scene, records, kFold | kBoundary, 2.0 * scene.spacing);
+  RecordProperty("f1", std::to_string(all.f1()));
+  std::printf("%s plates: p %.3f r %.3f f1 %.3f\n", testing::PrintToString(GetParam()).c_str(), all.precision,
+              all.recall, all.f1());
+  EXPECT_GE(all.f1(), GetParam().least_plates) << "precision " << all.precision << " recall " << all.recall;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Literal, ZhengQuality,
+    testing::Values(Case{false, false, false, 0.0, 0.9, 0.9}, Case{false, false, false, 0.2, 0.9, 0.9},
+                    Case{false, true, false, 0.0, 0.9, 0.9}, Case{false, true, false, 0.2, 0.9, 0.9},
+                    Case{false, true, true, 0.0, 0.9, 0.9}, Case{false, true, true, 0.2, 0.9, 0.9}));
+INSTANTIATE_TEST_SUITE_P(
+    Improved, ZhengQuality,
+    testing::Values(Case{true, false, false, 0.0, 0.95, 0.95}, Case{true, false, false, 0.2, 0.95, 0.95},
+                    Case{true, true, false, 0.0, 0.95, 0.95}, Case{true, true, false, 0.2, 0.95, 0.95},
+                    Case{true, true, true, 0.0, 0.95, 0.95}, Case{true, true, true, 0.2, 0.95, 0.95}));
+
+}  // namespace
+}  // namespace arris
