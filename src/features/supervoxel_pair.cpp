@@ -24,6 +24,19 @@ double normal_angle_deg(const SupervoxelTable& table, std::uint32_t a, std::uint
   return angle_of(std::sqrt(dot(across, across)), std::fabs(dot(na, nb))) * kDegreesPerRadian;
 }
 
+double step_height(const SupervoxelTable& table, std::uint32_t a, std::uint32_t b) {
+  const Vector3 na = normal_of(table, a);
+  const Vector3 nb = normal_of(table, b);
+  if (dot(na, na) < 0.5 || dot(nb, nb) < 0.5) return 0.0;
+  const double sign = dot(na, nb) < 0.0 ? -1.0 : 1.0;
+  Vector3 mean, apart;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    mean[axis] = na[axis] + sign * nb[axis];
+    apart[axis] = table.centroid[b][axis] - table.centroid[a][axis];
+  }
+  return std::fabs(dot(mean, apart)) / std::sqrt(dot(mean, mean));
+}
+
 double interior_angle_deg(const SupervoxelTable& table, std::uint32_t a, std::uint32_t b, const Vector3& contact) {
   const Vector3 along = cross(normal_of(table, a), normal_of(table, b));
   if (dot(along, along) < kParallelSine2) return 180.0;

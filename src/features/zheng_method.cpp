@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "features/healed_runner.h"
 #include "features/query_loop.h"
 #include "features/zheng_runner.h"
 
@@ -16,10 +17,10 @@ const double kZhengBytesPerThread = 4.0 * 1024 * 1024;
 namespace {
 
 /// Gives what was found at a position to its duplicates too.
-void add_duplicates(const PointTree& tree, const TilePoints& tile, std::span<const ZhengRunner::Found> found,
+void add_duplicates(const PointTree& tree, const TilePoints& tile, std::span<const ZhengFound> found,
                     std::vector<ContourRecord>& records) {
   std::vector<std::pair<std::uint32_t, const ContourRecord*>> at;
-  for (const ZhengRunner::Found& f : found) at.emplace_back(tree.entry(f.slot), &f.record);
+  for (const ZhengFound& f : found) at.emplace_back(tree.entry(f.slot), &f.record);
   std::sort(at.begin(), at.end());
   for (const auto& [id, entry] : tile.duplicates) {
     const auto it = std::lower_bound(at.begin(), at.end(), entry,
@@ -48,12 +49,19 @@ TileContours extract_zheng(const TilePoints& tile, std::span<const std::uint32_t
   const PointTree tree(tile.positions, tile.ids);
   const std::vector<std::uint32_t> ordered = in_tree_order(tree, labels);
   const ZhengTask task{tree, ordered, table, settings};
-  std::vector<ZhengRunner::Found> found;
-  run_queries(
-      tree, tile, nullptr, [&] { return ZhengRunner(task); },
-      [&](const ZhengRunner& runner) { found.insert(found.end(), runner.found().begin(), runner.found().end()); });
+  std::vector<ZhengFound> found;
+  const auto collect = [&](const auto& runner) {
+    found.insert(found.end(), runner.found().begin(), runner.found().end());
+  };
+  if (parameters.improved) {
+    run_queries(
+        tree, tile, nullptr, [&] { return HealedRunner(task); }, collect);
+  } else {
+    run_queries(
+        tree, tile, nullptr, [&] { return ZhengRunner(task); }, collect);
+  }
   contours.records.reserve(found.size());
-  for (const ZhengRunner::Found& f : found) contours.records.push_back(f.record);
+  for (const ZhengFound& f : found) contours.records.push_back(f.record);
   if (!tile.duplicates.empty()) add_duplicates(tree, tile, found, contours.records);
   std::sort(contours.records.begin(), contours.records.end(),
             [](const ContourRecord& a, const ContourRecord& b) { return a.id < b.id; });

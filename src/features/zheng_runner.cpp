@@ -47,56 +47,20 @@ void ZhengRunner::find_borders(const ClosedBox& box) {
 }
 
 void ZhengRunner::test_borders(Run run, const LabelledPart& own) {
-  const ZhengLengths lengths = task_.settings.lengths(task_.table, own.label);
+  const ZhengLengths& lengths = task_.settings.typical;
   const SupervoxelFrame frame = supervoxel_frame(task_.table, own.label);
-  if (frame.defined) project(own, frame);
+  if (frame.defined) {
+    surface_.begin(frame);
+    surface_.add(group_, own);
+  }
   for (Query& query : run) {
     const Vector3 at = group_.relative(task_.tree, query.slot);
-    const double free_deg = frame.defined ? exposure_deg(own, frame, at, lengths.alpha) : 360.0;
+    const double free_deg = frame.defined ? surface_.exposure_deg(at, lengths.alpha) : 360.0;
     if (free_deg == 0.0 || near_neighbour(own, at, lengths.seam)) continue;
     query.record.classes |= kBoundary;
     query.record.gap_deg = static_cast<float>(free_deg);
     query.record.score = std::max(query.record.score, border_score(free_deg, lengths));
   }
-}
-
-void ZhengRunner::project(const LabelledPart& own, const SupervoxelFrame& frame) {
-  const std::size_t n = own.end - own.begin;
-  for (auto* column : {&a_, &b_, &w_}) column->resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double x = group_.x()[own.begin + i];
-    const double y = group_.y()[own.begin + i];
-    const double z = group_.z()[own.begin + i];
-    a_[i] = frame.u[0] * x + frame.u[1] * y + frame.u[2] * z;
-    b_[i] = frame.v[0] * x + frame.v[1] * y + frame.v[2] * z;
-    w_[i] = frame.n[0] * x + frame.n[1] * y + frame.n[2] * z;
-  }
-}
-
-double ZhengRunner::exposure_deg(const LabelledPart& own, const SupervoxelFrame& frame, const Vector3& at,
-                                 double alpha) {
-  const std::size_t size = own.end - own.begin;
-  if (neighbours_.a.size() < size) {
-    neighbours_.a.resize(size);
-    neighbours_.b.resize(size);
-  }
-  const double a = dot(frame.u, at);
-  const double b = dot(frame.v, at);
-  const double w = dot(frame.n, at);
-  const double unit = 1.0 / (2.0 * alpha);
-  const double most_d2 = 4.0 * alpha * alpha;
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    // Without branches: every point is written, and the end advances past neighbours only.
-    const double da = a_[i] - a;
-    const double db = b_[i] - b;
-    const double dw = w_[i] - w;
-    neighbours_.a[n] = da * unit;
-    neighbours_.b[n] = db * unit;
-    n += da * da + db * db + dw * dw < most_d2;
-  }
-  neighbours_.count = n;
-  return exposed_(neighbours_);
 }
 
 /// True if a point of an adjacent supervoxel is no farther than `distance`.

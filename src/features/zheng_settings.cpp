@@ -36,7 +36,8 @@ double zheng_reach(const ZhengParameters& p) {
   const ZhengLengths most = lengths_at(p, p.spacing * (p.improved ? kMostLocalSpacing : 1.0), 1.0);
   double reach = 0.0;
   if (p.boundary) reach = std::max({reach, 2.0 * most.alpha, most.seam});
-  if (p.fold) reach = std::max(reach, 2.0 * most.cap);
+  // Improved, nearest neighbours need not be mutual: the ball around the point decides.
+  if (p.fold) reach = std::max(reach, (p.improved ? 1.0 : 2.0) * most.cap);
   if (p.improved) reach = std::max(reach, kJudgedBall * most.spacing);
   return reach * (1.0 + kFrameSlack);
 }

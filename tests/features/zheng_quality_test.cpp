@@ -83,5 +83,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{false, true, false, 0.0, 0.87, 0.98}, Case{false, true, false, 0.2, 0.89, 0.975},
                     Case{false, true, true, 0.0, 0.80, 0.92}, Case{false, true, true, 0.2, 0.82, 0.93}));
 
+INSTANTIATE_TEST_SUITE_P(
+    Improved, ZhengQuality,
+    testing::Values(Case{true, false, false, 0.0, 0.985, 0.98}, Case{true, false, false, 0.2, 0.985, 0.98},
+                    Case{true, true, false, 0.0, 0.985, 0.98}, Case{true, true, false, 0.2, 0.985, 0.98},
+                    Case{true, true, true, 0.0, 0.985, 0.98}, Case{true, true, true, 0.2, 0.985, 0.98}));
+
 }  // namespace
 }  // namespace arris
