@@ -39,7 +39,7 @@ void describe(const std::vector<LatticePoint>& members, SupervoxelTable& table, 
   const double m[3] = {s[0] / n, s[1] / n, s[2] / n};
   for (int i = 0; i < 3; ++i) {
     // On a grid, so that it moves exactly with the scan.
-    table.centroid[label][static_cast<std::size_t>(i)] = std::round((o[i] + m[i]) * 1024.0) / 1024.0;
+    table.centroid[label][static_cast<std::size_t>(i)] = o[i] + std::round(m[i] * 1024.0) / 1024.0;
   }
   const SymmetricMatrix<double> c{ss[0] / n - m[0] * m[0], ss[1] / n - m[0] * m[1], ss[2] / n - m[0] * m[2],
                                   ss[3] / n - m[1] * m[1], ss[4] / n - m[1] * m[2], ss[5] / n - m[2] * m[2]};
