@@ -20,8 +20,37 @@ constexpr double kThickSpacings = 0.4;
 
 }  // namespace
 
+/// The balls around one point: the first from the candidates of its group, the second on demand.
+class HealedRunner::Balls : public BallProvider {
+ public:
+  Balls(HealedRunner& runner, const Ball& centre, double wide, double spacing)
+      : runner_(runner), centre_(centre), wide_(wide), spacing_(spacing) {}
+
+  template <class T>
+  void collect_first(const CandidateSet<T>& candidates, const BallQuery<T>& query) {
+    collect_ball(candidates, query, spacing_, runner_.points_[0]);
+  }
+
+  const BallPoints* ball(int level) override {
+    BallPoints& points = runner_.points_[level];
+    if (level == 0 || known_) return &points;
+    runner_.wide_balls_.run({centre_.slot, wide_, 0}, [&](const auto& candidates, const auto& query) {
+      collect_ball(candidates, query, spacing_, points);
+    });
+    known_ = true;
+    return &points;
+  }
+
+ private:
+  HealedRunner& runner_;
+  const Ball& centre_;
+  double wide_;  ///< Steps.
+  double spacing_;
+  bool known_ = false;
+};
+
 HealedRunner::HealedRunner(const ZhengTask& task)
-    : task_(task), ball_search_(task.tree, Arithmetic::kFloat, BallSearch::Exact::kSums) {}
+    : task_(task), ball_search_(task.tree, Arithmetic::kFloat, BallSearch::Exact::kSums), wide_balls_(task.tree) {}
 
 void HealedRunner::run(std::span<const std::uint32_t> slots) {
   queries_.clear();
@@ -83,7 +112,7 @@ void HealedRunner::propose(std::span<const Query> run, const LabelledPart& own) 
     if (parameters.fold) {
       for (const Beside& b : beside_) {
         if (!b.bends || (proposal.bent && b.continues)) continue;
-        const bool near = std::isfinite(nearest_in(task_.tree, group_, *b.part, at, lengths.cap * lengths.cap).d2);
+        const bool near = any_within(group_, *b.part, at, lengths.cap * lengths.cap);
         proposal.bent |= near;
         proposal.contact |= near && !b.continues;
       }
@@ -108,8 +137,12 @@ void HealedRunner::judge(const CandidateSet<T>& candidates, const BallQuery<T>& 
   question.least_turn_deg = task_.settings.parameters.angle_deg;
   question.rms = std::sqrt(std::max(eigenvalues_of(moments.covariance()).smallest, 0.0)) / proposal.spacing;
   if (!question.border && question.rms < kFlatRms) return;
-  collect_ball(candidates, query, proposal.spacing, points_);
-  const PointContour contour = judge_seam(points_, kJudgedBall, question, scratch_);
+  const double wide = std::min(kWideBall * proposal.spacing, kLargestJudgedBall * task_.settings.typical.spacing);
+  question.radius[0] = kJudgedBall;
+  question.radius[1] = wide / proposal.spacing;
+  Balls balls(*this, ball, wide, proposal.spacing);
+  balls.collect_first(candidates, query);
+  const PointContour contour = judge_seam(question, balls, scratch_);
   if (contour.kind != PointContour::Kind::kNone) record(ball.slot, proposal, contour);
 }
 

@@ -28,6 +28,7 @@ class HealedRunner {
   std::vector<UnprovenQuery> take_unproven() { return {}; }  ///< The halo covers every support.
 
  private:
+  class Balls;
   struct Query {
     std::uint32_t label, slot;
   };
@@ -52,7 +53,8 @@ class HealedRunner {
   LabelledGroup group_;
   SurfaceProjection surface_;
   BallSearch ball_search_;
-  BallPoints points_;
+  SharedBalls wide_balls_;
+  BallPoints points_[2];
   RimScratch scratch_;
   std::vector<Query> queries_;
   std::vector<Beside> beside_;

@@ -1,17 +1,28 @@
 #include "features/labelled_group.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace arris {
 
 void LabelledGroup::gather(const PointTree& tree, std::span<const std::uint32_t> labels, const ClosedBox& box,
                            double reach) {
-  candidates_.gather(tree, box, reach);  // Lattice coordinates are always exact in double.
-  const std::size_t n = candidates_.count;
+  if ((reach + 1.0) * (reach + 1.0) < kExactSquares<float> && floats_.gather(tree, box, reach)) {
+    sort(floats_, labels);
+  } else {
+    doubles_.gather(tree, box, reach);  // Lattice coordinates are always exact in double.
+    sort(doubles_, labels);
+  }
+}
+
+template <class T>
+void LabelledGroup::sort(const CandidateSet<T>& candidates, std::span<const std::uint32_t> labels) {
+  const std::size_t n = candidates.count;
+  std::copy(std::begin(candidates.origin), std::end(candidates.origin), std::begin(origin_));
   parts_.clear();
   std::uint32_t last = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t label = labels[candidates_.slot[i]];
+    const std::uint32_t label = labels[candidates.slot[i]];
     if (label == last) continue;
     last = label;
     if (label != 0) parts_.push_back({label, 0, 0});
@@ -25,7 +36,7 @@ void LabelledGroup::gather(const PointTree& tree, std::span<const std::uint32_t>
   last = 0;
   std::uint32_t current = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t label = labels[candidates_.slot[i]];
+    const std::uint32_t label = labels[candidates.slot[i]];
     if (label == 0) continue;
     if (label != last) current = static_cast<std::uint32_t>(part(label) - parts_.data());
     last = label;
@@ -41,12 +52,12 @@ void LabelledGroup::gather(const PointTree& tree, std::span<const std::uint32_t>
   for (auto* column : {&x_, &y_, &z_}) column->resize(total);
   slots_.resize(total);
   for (std::size_t i = 0; i < n; ++i) {
-    if (labels[candidates_.slot[i]] == 0) continue;
+    if (labels[candidates.slot[i]] == 0) continue;
     const std::size_t to = parts_[part_of_[i]].end++;
-    x_[to] = candidates_.x[i];
-    y_[to] = candidates_.y[i];
-    z_[to] = candidates_.z[i];
-    slots_[to] = candidates_.slot[i];
+    x_[to] = candidates.x[i];
+    y_[to] = candidates.y[i];
+    z_[to] = candidates.z[i];
+    slots_[to] = candidates.slot[i];
   }
 }
 
@@ -57,14 +68,12 @@ const LabelledPart* LabelledGroup::part(std::uint32_t label) const {
 }
 
 Vector3 LabelledGroup::relative(const PointTree& tree, std::uint32_t slot) const {
-  return {static_cast<double>(tree.x()[slot] - candidates_.origin[0]),
-          static_cast<double>(tree.y()[slot] - candidates_.origin[1]),
-          static_cast<double>(tree.z()[slot] - candidates_.origin[2])};
+  return {static_cast<double>(tree.x()[slot] - origin_[0]), static_cast<double>(tree.y()[slot] - origin_[1]),
+          static_cast<double>(tree.z()[slot] - origin_[2])};
 }
 
 Vector3 LabelledGroup::origin() const {
-  return {static_cast<double>(candidates_.origin[0]), static_cast<double>(candidates_.origin[1]),
-          static_cast<double>(candidates_.origin[2])};
+  return {static_cast<double>(origin_[0]), static_cast<double>(origin_[1]), static_cast<double>(origin_[2])};
 }
 
 }  // namespace arris

@@ -38,7 +38,12 @@ class LabelledGroup {
   Vector3 origin() const;
 
  private:
-  CandidateSet<double> candidates_;
+  template <class T>
+  void sort(const CandidateSet<T>& candidates, std::span<const std::uint32_t> labels);
+
+  CandidateSet<float> floats_;  ///< The faster one, where it is exact.
+  CandidateSet<double> doubles_;
+  std::int64_t origin_[3] = {0, 0, 0};
   std::vector<std::uint32_t> part_of_;
   std::vector<LabelledPart> parts_;
   std::vector<double> x_, y_, z_;

@@ -19,6 +19,9 @@ struct NearestPoint {
 NearestPoint nearest_in(const PointTree& tree, const LabelledGroup& group, const LabelledPart& part, const Vector3& at,
                         double most_d2);
 
+/// True if a point of `part` is no farther than sqrt(most_d2) from `at`. O(points of the part).
+bool any_within(const LabelledGroup& group, const LabelledPart& part, const Vector3& at, double most_d2);
+
 /// A partner is a point of another supervoxel such that each is the other's nearest in its supervoxel.
 /// @param slot    a point of `own`, with every point of `own` within twice the cap of it in the group ...
 /// @param other   ... and every point of `other` within the cap.

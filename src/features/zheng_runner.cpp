@@ -31,19 +31,28 @@ void ZhengRunner::run(std::span<const std::uint32_t> slots) {
       detail::box_of(task_.tree, std::span<const Query>(queries_), [](const Query& query) { return query.slot; });
   std::sort(queries_.begin(), queries_.end(),
             [](const Query& a, const Query& b) { return a.label != b.label ? a.label < b.label : a.slot < b.slot; });
-  if (task_.settings.parameters.boundary) find_borders(box);
-  if (task_.settings.parameters.fold) find_contacts(box);
+  const ZhengParameters& parameters = task_.settings.parameters;
+  const ZhengLengths& lengths = task_.settings.typical;
+  const double reach = std::max({2.0 * lengths.alpha, lengths.seam, lengths.cap});
+  group_.gather(task_.tree, task_.labels, box, reach);
+  if (parameters.boundary) {
+    for_each_run([this](Run run, const LabelledPart& own) { test_borders(run, own); });
+  }
+  if (parameters.fold && any_may_touch()) {
+    // A partner is within the cap, and what might be nearer to the partner within the cap of that.
+    if (reach < 2.0 * lengths.cap) group_.gather(task_.tree, task_.labels, box, 2.0 * lengths.cap);
+    for_each_run([this](Run run, const LabelledPart& own) {
+      for (const LabelledPart& other : group_.parts()) {
+        double angle_deg = 0.0;
+        if (may_touch(own, other, angle_deg)) test_contacts(run, own, other, angle_deg);
+      }
+    });
+  }
   for (Query& query : queries_) {
     if (query.record.classes == 0) continue;
     query.record.id = task_.tree.id(query.slot);
     found_.push_back({query.slot, query.record});
   }
-}
-
-void ZhengRunner::find_borders(const ClosedBox& box) {
-  const ZhengLengths& lengths = task_.settings.typical;
-  group_.gather(task_.tree, task_.labels, box, std::max(2.0 * lengths.alpha, lengths.seam));
-  for_each_run([this](Run run, const LabelledPart& own) { test_borders(run, own); });
 }
 
 void ZhengRunner::test_borders(Run run, const LabelledPart& own) {
@@ -55,8 +64,9 @@ void ZhengRunner::test_borders(Run run, const LabelledPart& own) {
   }
   for (Query& query : run) {
     const Vector3 at = group_.relative(task_.tree, query.slot);
+    if (near_neighbour(own, at, lengths.seam)) continue;
     const double free_deg = frame.defined ? surface_.exposure_deg(at, lengths.alpha) : 360.0;
-    if (free_deg == 0.0 || near_neighbour(own, at, lengths.seam)) continue;
+    if (free_deg == 0.0) continue;
     query.record.classes |= kBoundary;
     query.record.gap_deg = static_cast<float>(free_deg);
     query.record.score = std::max(query.record.score, border_score(free_deg, lengths));
@@ -67,21 +77,25 @@ void ZhengRunner::test_borders(Run run, const LabelledPart& own) {
 bool ZhengRunner::near_neighbour(const LabelledPart& own, const Vector3& at, double distance) const {
   for (const LabelledPart& other : group_.parts()) {
     if (other.label == own.label || !task_.table.adjacent(own.label, other.label)) continue;
-    if (std::isfinite(nearest_in(task_.tree, group_, other, at, distance * distance).d2)) return true;
+    if (any_within(group_, other, at, distance * distance)) return true;
   }
   return false;
 }
 
-void ZhengRunner::find_contacts(const ClosedBox& box) {
-  group_.gather(task_.tree, task_.labels, box, 2.0 * task_.settings.typical.cap);
-  if (group_.parts().size() < 2) return;
-  for_each_run([this](Run run, const LabelledPart& own) {
-    for (const LabelledPart& other : group_.parts()) {
-      if (other.label == own.label || !task_.table.adjacent(own.label, other.label)) continue;
-      const double angle_deg = normal_angle_deg(task_.table, own.label, other.label);
-      if (angle_deg > task_.settings.parameters.angle_deg) test_contacts(run, own, other, angle_deg);
-    }
+bool ZhengRunner::may_touch(const LabelledPart& own, const LabelledPart& other, double& angle_deg) const {
+  if (other.label == own.label || !task_.table.adjacent(own.label, other.label)) return false;
+  angle_deg = normal_angle_deg(task_.table, own.label, other.label);
+  return angle_deg > task_.settings.parameters.angle_deg;
+}
+
+bool ZhengRunner::any_may_touch() {
+  bool any = false;
+  if (group_.parts().size() < 2) return false;
+  for_each_run([&](Run, const LabelledPart& own) {
+    double angle_deg = 0.0;
+    for (const LabelledPart& other : group_.parts()) any = any || may_touch(own, other, angle_deg);
   });
+  return any;
 }
 
 void ZhengRunner::test_contacts(Run run, const LabelledPart& own, const LabelledPart& other, double angle_deg) {

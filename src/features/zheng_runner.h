@@ -30,10 +30,10 @@ class ZhengRunner {
   /// Queries of one supervoxel.
   using Run = std::span<Query>;
 
-  void find_borders(const ClosedBox& box);
   void test_borders(Run run, const LabelledPart& own);
   bool near_neighbour(const LabelledPart& own, const Vector3& at, double distance) const;
-  void find_contacts(const ClosedBox& box);
+  bool may_touch(const LabelledPart& own, const LabelledPart& other, double& angle_deg) const;
+  bool any_may_touch();
   void test_contacts(Run run, const LabelledPart& own, const LabelledPart& other, double angle_deg);
   template <class Test>
   void for_each_run(Test&& test);

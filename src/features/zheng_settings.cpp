@@ -38,7 +38,7 @@ double zheng_reach(const ZhengParameters& p) {
   if (p.boundary) reach = std::max({reach, 2.0 * most.alpha, most.seam});
   // Improved, nearest neighbours need not be mutual: the ball around the point decides.
   if (p.fold) reach = std::max(reach, (p.improved ? 1.0 : 2.0) * most.cap);
-  if (p.improved) reach = std::max(reach, kJudgedBall * most.spacing);
+  if (p.improved) reach = std::max(reach, kLargestJudgedBall * p.spacing);
   return reach * (1.0 + kFrameSlack);
 }
 

@@ -19,8 +19,11 @@ struct ZhengLengths {
 
 /// No supervoxel counts as sampled more sparsely than this many times `spacing`: that bounds the halo.
 constexpr double kMostLocalSpacing = 2.0;
-/// Radius of the ball that a fold is fitted to and a border judged in, in local spacings (improved only).
+/// Radius of the ball that a fold is fitted to and a border judged in, in local spacings (improved only) ...
 constexpr double kJudgedBall = 5.0;
+/// ... and of the one that is asked where there is noise; but no ball is larger than so many times `spacing`.
+constexpr double kWideBall = 9.0;
+constexpr double kLargestJudgedBall = kJudgedBall * kMostLocalSpacing;
 
 struct ZhengSettings {
   /// Throws ConfigError if a parameter is out of range or the reach exceeds 2^26 steps.
