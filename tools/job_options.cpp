@@ -64,10 +64,27 @@ void add_liu_options(CLI::App& verb, JobOptions& o) {
       ->capture_default_str();
 }
 
+void add_zheng_options(CLI::App& verb, JobOptions& o) {
+  const char* group = "Method zheng: contours";
+  verb.add_flag("--improved", o.zheng.improved, "Beyond the paper: steps, local spacing, seams healed")->group(group);
+  verb.add_option("--plane-angle", o.zheng.angle_deg,
+                  "Supervoxels whose normals are further apart are not coplanar, degrees (2.2)")
+      ->group(group)
+      ->capture_default_str();
+  verb.add_option("--contact-cap", o.contact_cap, "Mutual nearest neighbours are no further apart (length; 3 spacings)")
+      ->group(group);
+  verb.add_option("--alpha-radius", o.alpha_radius, "Radius of the alpha shape (length; 2 spacings)")->group(group);
+  verb.add_option("--seam-distance", o.seam_distance,
+                  "Border points this near to an adjacent supervoxel are seams (length; 1.8 spacings)")
+      ->group(group);
+  add_supervoxel_options(verb, o.supervoxel, "Method zheng: supervoxels");
+}
+
 void add_contour_options(CLI::App& verb, JobOptions& o) {
   const char* group = "Contours";
-  verb.add_option("--method", o.method, "arris: the default, nothing to set; liu: Liu et al. as published")
-      ->check(CLI::IsMember({"arris", "liu"}))
+  verb.add_option("--method", o.method,
+                  "arris: the default, nothing to set; liu: Liu et al.; zheng: Zheng et al., by supervoxels")
+      ->check(CLI::IsMember({"arris", "liu", "zheng"}))
       ->group(group)
       ->capture_default_str();
   verb.add_option("--spacing", o.spacing, "One point spacing for all points (length); estimated per point if not given")
@@ -123,13 +140,16 @@ void add_job_options(CLI::App& verb, JobOptions& o) {
   add_run_options(verb, o.run);
   add_contour_options(verb, o);
   add_liu_options(verb, o);
+  add_zheng_options(verb, o);
 }
 
 pipeline::ExtractRequest to_request(JobOptions& o, const CLI::App& verb) {
   pipeline::ExtractRequest request;
   fill_run_request(o.run, request);
 
-  request.method.method = o.method == "liu" ? ContourParameters::Method::kLiu : ContourParameters::Method::kArris;
+  request.method.method = o.method == "liu"     ? ContourParameters::Method::kLiu
+                          : o.method == "zheng" ? ContourParameters::Method::kZheng
+                                                : ContourParameters::Method::kArris;
   ArrisParameters& arris = request.method.arris;
   arris.spacing = length_or(o.spacing, 0.0);
   arris.max_radius = length_or(o.max_radius, 0.0);
@@ -153,6 +173,15 @@ pipeline::ExtractRequest to_request(JobOptions& o, const CLI::App& verb) {
   liu.noise = length_or(o.noise, 0.0);
   liu.boundary = !o.no_boundary;
   liu.fold = !o.no_fold;
+  ZhengParameters& zheng = request.method.zheng;
+  zheng = o.zheng;
+  zheng.spacing = length_or(o.spacing, 0.0);
+  zheng.contact_cap = length_or(o.contact_cap, 0.0);
+  zheng.alpha = length_or(o.alpha_radius, 0.0);
+  zheng.seam_distance = length_or(o.seam_distance, 0.0);
+  zheng.boundary = !o.no_boundary;
+  zheng.fold = !o.no_fold;
+  request.method.supervoxel = to_parameters(o.supervoxel);
   return request;
 }
 

@@ -5,6 +5,7 @@
 
 #include "pipeline/extract.h"
 #include "run_options.h"
+#include "supervoxel_options.h"
 
 namespace CLI {
 class App;
@@ -25,6 +26,9 @@ struct JobOptions {
   std::string radius, cf1, far_distance, spacing, max_radius, noise;  // Lengths with units.
   bool literal = false;
   bool neighbours_only = false;
+  ZhengParameters zheng;
+  std::string alpha_radius, contact_cap, seam_distance;  // Lengths with units.
+  SupervoxelOptions supervoxel;
   bool no_boundary = false;
   bool no_fold = false;
 };

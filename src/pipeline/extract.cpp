@@ -11,13 +11,58 @@
 #include "merge/result_spool.h"
 #include "pipeline/gather.h"
 #include "pipeline/job_plan.h"
+#include "pipeline/label_points.h"
 #include "pipeline/run_folder.h"
 #include "pipeline/run_support.h"
+#include "pipeline/supervoxel_scene.h"
 #include "pipeline/tile_stage.h"
+#include "pipeline/voxel_memory.h"
 #include "pipeline/widen_stage.h"
 #include "tiling/tile_store.h"
 
 namespace arris::pipeline {
+
+namespace {
+
+/// Supervoxels of the scan, as the method zheng asks for them.
+struct LabelledScene {
+  SupervoxelScene scene;
+  SupervoxelTable table;
+};
+
+std::unique_ptr<const LabelledScene> label_scene(io::InputSet& inputs, const JobPlan& plan,
+                                                 const ExtractRequest& request, const std::filesystem::path& folder,
+                                                 ProgressSink& progress, const CancelToken& cancel) {
+  const ThreadLimit limit(request.threads);
+  auto labelled = std::make_unique<LabelledScene>(LabelledScene{
+      make_supervoxel_scene(
+          inputs, plan.survey,
+          {plan.method.supervoxel, plan.scale, request.memory_bytes, request.tile_points_cap, true, folder}, progress,
+          cancel),
+      {}});
+  merge::SupervoxelMoments moments(labelled->scene.clusters.count, 4 * plan.scale.seed_steps);
+  const tiling::LatticeMapper mapper(inputs.sources(), plan.survey.lattice);
+  sum_moments(inputs, mapper, labelled->scene.labels(), moments, progress, cancel);
+  labelled->table = moments.table(labelled->scene.clusters.adjacency);
+  labelled->scene.clusters.adjacency = {};
+  return labelled;
+}
+
+/// What the method does with a tile. @param labelled  null unless the method works by supervoxels.
+TileAnalysis analysis_of(const JobPlan& plan, const LabelledScene* labelled) {
+  if (labelled == nullptr) {
+    return [&plan](const TilePoints& points) { return extract_contours(points, plan.survey.lattice, plan.method); };
+  }
+  return [&plan, labelled](const TilePoints& points) {
+    const VoxelLabels label_of = labelled->scene.labels();
+    std::vector<std::uint32_t> labels(points.positions.size());
+    std::uint32_t hint = 0;
+    for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = label_of.at(points.positions[i], hint);
+    return extract_zheng(points, labels, labelled->table, plan.survey.lattice, plan.method.zheng);
+  };
+}
+
+}  // namespace
 
 ExtractReport plan_only(const ExtractRequest& request, ProgressSink& progress, const CancelToken& cancel) {
   ExtractReport report;
@@ -25,7 +70,10 @@ ExtractReport plan_only(const ExtractRequest& request, ProgressSink& progress, c
   Stopwatch watch(report);
   io::InputSet inputs(io::expand_inputs(request.inputs), request.tolerance);
   inputs.exclude(request.exclusion);
-  const JobPlan plan = plan_job(inputs, request, sink, cancel);
+  JobPlan plan = survey_job(inputs, request, sink, cancel);
+  if (plan.method.by_supervoxels())
+    plan.memory = plan_memory({request.memory_bytes, request.threads, predicted_scene_bytes(plan.survey, plan.scale)});
+  plan_job_tiles(plan, request, sink);
   describe_plan(plan, inputs, request, report);
   warn_of_dropped(report, sink);
   watch.lap("survey");
@@ -56,13 +104,25 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
   }
 
   inputs.exclude(request.exclusion);
-  const JobPlan plan = plan_job(inputs, request, sink, cancel);
+  JobPlan plan = survey_job(inputs, request, sink, cancel);
   problems.forward();
+  watch.lap("survey");
+  const RunFolder folder(request.temp_dir);
+  std::unique_ptr<const LabelledScene> labelled;
+  if (plan.method.by_supervoxels() && plan.method.any_test()) {
+    labelled = label_scene(inputs, plan, request, folder.path(), sink, cancel);
+    report.voxels = labelled->scene.store.size();
+    report.supervoxels = labelled->scene.clusters.count;
+    report.peak_temp_bytes = labelled->scene.peak_temp_bytes;
+    plan.memory = plan_memory({request.memory_bytes, request.threads});
+    watch.lap("supervoxels");
+  }
+  plan_job_tiles(plan, request, sink);
   describe_plan(plan, inputs, request, report);
   warn_of_dropped(report, sink);
-  watch.lap("survey");
+  if (labelled)
+    report.predicted_peak_bytes = std::max(report.predicted_peak_bytes, labelled->scene.predicted_peak_bytes);
 
-  const RunFolder folder(request.temp_dir);
   merge::ResultSpool results(folder.path(), inputs.points());
   const bool any_test = plan.method.any_test();  // Without, all points are no contour.
   if (any_test) {
@@ -70,8 +130,9 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     const ThreadLimit limit(request.threads - plan.memory.tile_workers + 1);
     tiling::TileStore store(folder.path(), plan.survey.lattice, plan.tiles, "");
     MemoryBudget budget(plan.memory.tiles_bytes);
-    const TileStageResult tiles = run_tile_stage(inputs, plan, folder.path(), store, budget, results, sink, cancel);
-    report.peak_temp_bytes = std::max(tiles.spooled_bytes, folder_bytes(folder.path()));
+    const TileStageResult tiles = run_tile_stage(inputs, plan, analysis_of(plan, labelled.get()), folder.path(), store,
+                                                 budget, results, sink, cancel);
+    report.peak_temp_bytes = std::max({report.peak_temp_bytes, tiles.spooled_bytes, folder_bytes(folder.path())});
     watch.lap("tiles");
     const WidenResult widened = run_widen_stage(plan, tiles.unproven, folder.path(), store, results, sink, cancel);
     report.isolated = tiles.isolated + widened.isolated;

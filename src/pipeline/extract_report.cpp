@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/supervoxel.h"
+
 namespace arris::pipeline {
 namespace {
 
@@ -43,8 +45,32 @@ Json arris_json(const ArrisParameters& p) {
           {"viewpoint", view}};
 }
 
+Json zheng_json(const ContourParameters& parameters) {
+  const ZhengParameters& p = parameters.zheng;
+  return {{"spacing", p.spacing},
+          {"angle_deg", p.angle_deg},
+          {"contact_cap", p.contact_cap},
+          {"contact_factor", p.contact_factor},
+          {"alpha", p.alpha},
+          {"alpha_factor", p.alpha_factor},
+          {"seam_distance", p.seam_distance},
+          {"seam_factor", p.seam_factor},
+          {"improved", p.improved},
+          {"boundary", p.boundary},
+          {"fold", p.fold},
+          {"supervoxel", supervoxel_json(parameters.supervoxel)}};
+}
+
 Json parameters_json(const ContourParameters& p) {
-  return p.method == ContourParameters::Method::kArris ? arris_json(p.arris) : liu_json(p.liu);
+  switch (p.method) {
+    case ContourParameters::Method::kArris:
+      return arris_json(p.arris);
+    case ContourParameters::Method::kLiu:
+      return liu_json(p.liu);
+    case ContourParameters::Method::kZheng:
+      return zheng_json(p);
+  }
+  return {};
 }
 
 }  // namespace
@@ -53,12 +79,14 @@ Json to_json(const ExtractReport& r) {
   Json json = report_head(r, "arris-extract-report/1");
   json["method"] = r.parameters.name();
   json["parameters"] = parameters_json(r.parameters);
-  json["points"] = {{"in", r.points_in},
-                    {"out", r.points_out},
-                    {"not_contour", r.not_contour},
-                    {"dropped", dropped_json(r)}};
-  json["edges"] = {
-      {"boundary", r.boundary}, {"weak_boundary", r.weak_boundary}, {"fold", r.fold}, {"isolated_points", r.isolated}};
+  json["points"] = {
+      {"in", r.points_in}, {"out", r.points_out}, {"not_contour", r.not_contour}, {"dropped", dropped_json(r)}};
+  json["edges"] = {{"boundary", r.boundary},
+                   {"weak_boundary", r.weak_boundary},
+                   {"fold", r.fold},
+                   {"contact", r.contact},
+                   {"isolated_points", r.isolated}};
+  if (r.parameters.by_supervoxels()) json["supervoxels"] = {{"voxels", r.voxels}, {"count", r.supervoxels}};
   json["tiles"] = {{"count", r.tiles},
                    {"largest_points", r.largest_tile_points},
                    {"points_limit", r.tile_points_limit},

@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "features/contour_method.h"
 #include "pipeline/run_support.h"
+#include "pipeline/voxel_memory.h"
 
 namespace arris::pipeline {
 namespace {
@@ -31,20 +32,30 @@ double resolve_max_radius(const ContourParameters& method, const tiling::Survey&
 
 }  // namespace
 
-JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSink& progress,
-                 const CancelToken& cancel) {
+JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSink& progress,
+                   const CancelToken& cancel) {
   JobPlan plan;
   plan.memory = plan_memory({request.memory_bytes, request.threads});
   plan.survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
   plan.method = request.method;
-  plan.method.set_max_radius(resolve_max_radius(request.method, plan.survey));
+  if (plan.method.by_supervoxels()) {
+    ZhengParameters& zheng = plan.method.zheng;
+    if (zheng.spacing == 0.0) zheng.spacing = std::max(plan.survey.spacing, plan.survey.lattice.step);
+    plan.scale = resolve_scale(plan.method.supervoxel, zheng.spacing, plan.survey.lattice);
+  } else {
+    plan.method.set_max_radius(resolve_max_radius(request.method, plan.survey));
+  }
   validate(plan.method);
+  return plan;
+}
 
+void plan_job_tiles(JobPlan& plan, const ExtractRequest& request, ProgressSink& progress) {
   tiling::PlanRequest tiles;
   tiles.max_points = plan.memory.max_tile_points;
   tiles.max_core_points = request.tile_points_cap;
   tiles.halo = [&](double spacing) { return contour_halo(plan.method, spacing); };
   tiles.max_radius = plan.method.max_radius();
+  tiles.whole_halo = plan.method.by_supervoxels();
   plan.tiles = tiling::plan_tiles(plan.survey, tiles);
 
   // Few tiles leave threads idle: then one tile at a time uses all of them inside.
@@ -64,8 +75,8 @@ JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSi
       static_cast<std::uint64_t>(stored * (kSpoolBytesPerPoint + kTileFileBytesPerPoint) +
                                  static_cast<double>(plan.survey.points()) * kResultBytesPerPoint) +
       plan.tiles.tiles.size() * 64 * 1024;
+  if (plan.method.by_supervoxels()) plan.predicted_temp_bytes += predicted_voxel_temp_bytes(plan.survey, plan.scale);
   check_temp_space(plan.predicted_temp_bytes, request, progress);
-  return plan;
 }
 
 void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const ExtractRequest& request,

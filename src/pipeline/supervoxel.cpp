@@ -8,14 +8,12 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/process_memory.h"
-#include "core/text.h"
 #include "pipeline/label_points.h"
 #include "pipeline/run_folder.h"
 #include "pipeline/run_support.h"
-#include "pipeline/supervoxel_stage.h"
+#include "pipeline/supervoxel_scene.h"
 #include "pipeline/supervoxel_text.h"
 #include "pipeline/voxel_memory.h"
-#include "pipeline/voxel_stage.h"
 
 namespace arris::pipeline {
 namespace {
@@ -57,8 +55,7 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   inputs.exclude(request.exclusion);
   const ThreadLimit limit(request.threads);
 
-  const VoxelMemory memory(request.memory_bytes);
-  tiling::Survey survey = tiling::survey_inputs(inputs, {request.lattice_step}, sink, cancel);
+  const tiling::Survey survey = tiling::survey_inputs(inputs, {request.lattice_step}, sink, cancel);
   problems.forward();
   describe_inputs(survey, inputs, request, report);
   warn_of_dropped(report, sink);
@@ -69,30 +66,25 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   watch.lap("survey");
 
   const RunFolder folder(request.temp_dir);
-  const VoxelStageResult voxels = run_voxel_stage(inputs, survey, scale, request.parameters.colour, folder.path(),
-                                                  memory.table_bytes(), sink, cancel);
-  survey.counts = tiling::CellCounts();  // No longer needed.
-  release_free_memory();
-  report.colours = voxels.colours;
-  report.voxels = voxels.store.size();
-  report.peak_temp_bytes = voxels.peak_temp_bytes;
-  watch.lap("voxels");
-
-  SupervoxelStageRequest stage{report.parameters,       scale,
-                               voxels.colours,          memory.stage_bytes(),
-                               request.tile_points_cap, !request.adjacency.empty()};
-  const SupervoxelStageResult clusters = run_supervoxel_stage(voxels.store, stage, sink, cancel);
-  release_free_memory();
+  const SupervoxelScene scene =
+      make_supervoxel_scene(inputs, survey,
+                            {report.parameters, scale, request.memory_bytes, request.tile_points_cap,
+                             !request.adjacency.empty(), folder.path()},
+                            sink, cancel);
+  const SupervoxelStageResult& clusters = scene.clusters;
+  report.colours = scene.colours;
+  report.voxels = scene.store.size();
+  report.peak_temp_bytes = scene.peak_temp_bytes;
   report.supervoxels = clusters.count;
   report.orphans = clusters.orphans;
   report.neighbour_pairs = clusters.adjacency.size();
   report.tiles = clusters.tiles;
   report.largest_tile_voxels = clusters.largest_tile_voxels;
-  report.predicted_peak_bytes = memory.predicted_peak_bytes(clusters.predicted_bytes);
+  report.predicted_peak_bytes = scene.predicted_peak_bytes;
   watch.lap("supervoxels");
 
   const tiling::LatticeMapper mapper(inputs.sources(), survey.lattice);
-  const VoxelLabels labels(voxels.store, clusters.ids);
+  const VoxelLabels labels = scene.labels();
   if (!request.table.empty()) {
     merge::SupervoxelMoments moments(clusters.count, 4 * scale.seed_steps);
     sum_moments(inputs, mapper, labels, moments, sink, cancel);
@@ -114,17 +106,24 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   return report;
 }
 
-nlohmann::ordered_json to_json(const SupervoxelReport& r) {
+nlohmann::ordered_json supervoxel_json(const SupervoxelParameters& p) {
   using Json = nlohmann::ordered_json;
-  const SupervoxelParameters& p = r.parameters;
   const bool fpfh = p.features == SupervoxelParameters::Features::kFpfh;
-  Json json = report_head(r, "arris-supervoxel-report/1");
-  json["parameters"] = {
-      {"features", fpfh ? "fpfh" : "normal"}, {"colour", r.colours},           {"voxel", p.voxel}, {"seed", p.seed},
-      {"iterations", p.iterations},           {"seed_support", p.seed_support}};
-  json["parameters"]["weights"] =
-      fpfh ? Json{{"lambda", p.lambda}, {"mu", p.mu}, {"epsilon", p.epsilon}, {"m", p.colour_scale}}
-           : Json{{"normal", p.normal_weight}, {"spatial", p.spatial_weight}, {"colour", p.colour_weight}};
+  Json json{{"features", fpfh ? "fpfh" : "normal"},
+            {"voxel", p.voxel},
+            {"seed", p.seed},
+            {"iterations", p.iterations},
+            {"seed_support", p.seed_support}};
+  json["weights"] = fpfh
+                        ? Json{{"lambda", p.lambda}, {"mu", p.mu}, {"epsilon", p.epsilon}, {"m", p.colour_scale}}
+                        : Json{{"normal", p.normal_weight}, {"spatial", p.spatial_weight}, {"colour", p.colour_weight}};
+  return json;
+}
+
+nlohmann::ordered_json to_json(const SupervoxelReport& r) {
+  nlohmann::ordered_json json = report_head(r, "arris-supervoxel-report/1");
+  json["parameters"] = supervoxel_json(r.parameters);
+  json["colour"] = r.colours;
   json["points"] = {{"in", r.points_in}, {"out", r.points_out}, {"unlabelled", dropped_json(r)}};
   json["voxels"] = r.voxels;
   json["supervoxels"] = {{"count", r.supervoxels}, {"without_seed", r.orphans}, {"neighbour_pairs", r.neighbour_pairs}};

@@ -37,5 +37,6 @@ struct SupervoxelReport : RunReport {
 SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSink& progress, const CancelToken& cancel);
 
 nlohmann::ordered_json to_json(const SupervoxelReport& report);
+nlohmann::ordered_json supervoxel_json(const SupervoxelParameters& parameters);
 
 }  // namespace arris::pipeline

@@ -23,6 +23,17 @@ constexpr double kVoxelTempBytes = 36.0 + 80.0;
 /// Surfaces cut voxels off-centre: about this many per area of a voxel's face.
 constexpr double kVoxelsPerFace = 1.5;
 
+/// Per voxel: index and id.
+constexpr double kIndexBytes = 3.0 + 4.0;
+/// Per supervoxel: moments, table, neighbours.
+constexpr double kSupervoxelBytes = 260.0;
+
+double likely_voxels(const tiling::Survey& survey, const SupervoxelScale& scale) {
+  const double side = scale.voxel_steps * survey.lattice.step;
+  const double per_point = std::min(1.0, kVoxelsPerFace * survey.spacing * survey.spacing / (side * side));
+  return static_cast<double>(survey.points()) * per_point;
+}
+
 }  // namespace
 
 VoxelMemory::VoxelMemory(std::uint64_t budget_bytes)
@@ -46,10 +57,14 @@ std::uint64_t VoxelMemory::predicted_peak_bytes(std::uint64_t stage_bytes) const
   return before_stage_bytes_ + std::max(kPassBytes, stage_bytes);
 }
 
+std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const SupervoxelScale& scale) {
+  const double cells = static_cast<double>(scale.seed_steps) / scale.voxel_steps;
+  const double each = kIndexBytes + kVoxelsPerFace * kSupervoxelBytes / (cells * cells);
+  return static_cast<std::uint64_t>(likely_voxels(survey, scale) * each);
+}
+
 std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale) {
-  const double side = scale.voxel_steps * survey.lattice.step;
-  const double per_point = std::min(1.0, kVoxelsPerFace * survey.spacing * survey.spacing / (side * side));
-  return static_cast<std::uint64_t>(static_cast<double>(survey.points()) * per_point * kVoxelTempBytes) + kMiB;
+  return static_cast<std::uint64_t>(likely_voxels(survey, scale) * kVoxelTempBytes) + kMiB;
 }
 
 }  // namespace arris::pipeline

@@ -25,6 +25,9 @@ class VoxelMemory {
   mutable std::uint64_t before_stage_bytes_ = 0;
 };
 
+/// What a SupervoxelScene and its table keep in memory; for plans, before the voxels are known.
+std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const SupervoxelScale& scale);
+
 /// Runs and store of the voxels, for inputs whose neighbours in space are neighbours in the file.
 std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale);
 
