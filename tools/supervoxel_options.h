@@ -15,7 +15,7 @@ namespace arris::tools {
 struct SupervoxelOptions {
   SupervoxelParameters parameters;
   std::string voxel, seed;  // Lengths with units.
-  std::string features = "fpfh";
+  std::string features = "normal";
   std::string colour = "auto";
 };
 

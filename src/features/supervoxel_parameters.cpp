@@ -11,8 +11,9 @@
 namespace arris {
 namespace {
 
-/// Rings of voxels around a voxel on which its features depend: normals 2, point feature histograms 2 more.
-constexpr std::int32_t kFeatureRings = 4;
+/// Rings of voxels around a voxel on which its features depend: windows 2, their choice 2 more, point feature histograms
+/// 2 more.
+constexpr std::int32_t kFeatureRings = 6;
 constexpr double kGrowthReach = 1.8;  // Of R_seed; SupervoxelClustering of PCL.
 constexpr double kPi = 3.14159265358979323846;
 

@@ -12,7 +12,7 @@ struct SupervoxelParameters {
   enum class Features : std::uint8_t {
     kFpfh,    ///< D = sqrt(lambda Dc^2 / m^2 + mu Ds^2 / (3 R_seed^2) + epsilon D_HIK^2), eq. (2).
     kNormal,  ///< D = w_n (1 - |n . n'|) + w_s |dx| / R_seed + w_c |dRGB| / 255.
-  } features = Features::kFpfh;
+  } features = Features::kNormal;
   enum class Colour : std::uint8_t { kAuto, kOn, kOff } colour = Colour::kAuto;  ///< kAuto: if all inputs have it.
 
   double voxel = 0.0;  ///< R_voxel; 0: kVoxelSpacings times the spacing.
@@ -31,7 +31,7 @@ struct SupervoxelParameters {
   double colour_weight = 0.1;   ///< kNormal, >= 0.
 };
 
-constexpr double kVoxelSpacings = 2.0;
+constexpr double kVoxelSpacings = 1.5;
 constexpr double kSeedVoxels = 40.0 / 3.0;  ///< The paper's 0.4 m / 0.03 m.
 
 /// Throws ConfigError, naming the option, if a value is out of range.

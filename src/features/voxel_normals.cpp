@@ -1,6 +1,9 @@
 #include "features/voxel_normals.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "features/symmetric_eigen3.h"
@@ -11,6 +14,8 @@ namespace {
 constexpr std::size_t kGrain = 16 * 1024;
 /// A plane needs two directions: the second eigenvalue must be at least this share of the first.
 constexpr double kLeastWidth = 1e-4;
+/// A window that stays on one side of a fold has its middle this many voxels away.
+constexpr int kWindowRings = 2;
 /// Normals have a positive component along this (3, 4, 12) / 13, so that neighbours on a wall agree.
 constexpr std::array<double, 3> kGeneric{3.0 / 13.0, 4.0 / 13.0, 12.0 / 13.0};
 
@@ -61,7 +66,14 @@ void add_shifted(Moments& to, const Moments& m, const std::array<float, 3>& shif
   to.square[5] += m.square[5] + 2.0F * sz * z + m.n * z * z;
 }
 
-std::array<float, 3> normal_of(const Moments& m) {
+/// The plane of a window, as seen from its middle voxel, in voxel sides.
+struct WindowPlane {
+  std::array<float, 3> normal{};                            ///< (0, 0, 0): none.
+  std::array<float, 3> mean{};                              ///< From the middle voxel's centroid.
+  float variance = std::numeric_limits<float>::infinity();  ///< Mean squared distance from the plane.
+};
+
+WindowPlane plane_of(const Moments& m) {
   const double n = m.n;
   const double x = m.sum[0] / n;
   const double y = m.sum[1] / n;
@@ -69,10 +81,45 @@ std::array<float, 3> normal_of(const Moments& m) {
   const SymmetricMatrix<double> covariance{m.square[0] / n - x * x, m.square[1] / n - x * y, m.square[2] / n - x * z,
                                            m.square[3] / n - y * y, m.square[4] / n - y * z, m.square[5] / n - z * z};
   const Eigenvalues<double> values = eigenvalues_of(covariance);
-  if (!(values.middle > kLeastWidth * values.largest) || !(values.largest > 0.0)) return {0.0F, 0.0F, 0.0F};
+  WindowPlane plane;
+  if (!(values.middle > kLeastWidth * values.largest) || !(values.largest > 0.0)) return plane;
   Vector3 e = principal_frame(covariance, values).e3;
   if (e[0] * kGeneric[0] + e[1] * kGeneric[1] + e[2] * kGeneric[2] < 0.0) e = {-e[0], -e[1], -e[2]};
-  return {static_cast<float>(e[0]), static_cast<float>(e[1]), static_cast<float>(e[2])};
+  plane.normal = {static_cast<float>(e[0]), static_cast<float>(e[1]), static_cast<float>(e[2])};
+  plane.mean = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+  plane.variance = static_cast<float>(std::max(values.smallest, 0.0));
+  return plane;
+}
+
+/// How badly the plane of window `u` fits voxel v: the window's own scatter and v's distance from it.
+float misfit(const VoxelTile& tile, const std::vector<WindowPlane>& planes, std::size_t v, std::size_t u,
+             float per_side) {
+  const WindowPlane& plane = planes[u];
+  const std::array<float, 3> off = offset(tile.positions[u], tile.positions[v], per_side);
+  float distance = 0.0F;
+  for (std::size_t i = 0; i < 3; ++i) distance += (off[i] - plane.mean[i]) * plane.normal[i];
+  return plane.variance + distance * distance;
+}
+
+/// For each voxel the one, among `choice` of itself and of its neighbours, whose window fits best; ties: the first.
+std::vector<std::uint32_t> better_windows(const VoxelTile& tile, const std::vector<WindowPlane>& planes,
+                                          const std::vector<std::uint32_t>& choice, float per_side) {
+  std::vector<std::uint32_t> best(tile.size());
+  parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      best[v] = choice[v];
+      float least = misfit(tile, planes, v, choice[v], per_side);
+      for (const std::uint32_t u : tile.neighbours_of(v)) {
+        if (choice[u] == best[v]) continue;
+        const float other = misfit(tile, planes, v, choice[u], per_side);
+        if (other < least) {
+          least = other;
+          best[v] = choice[u];
+        }
+      }
+    }
+  });
+  return best;
 }
 
 }  // namespace
@@ -83,15 +130,22 @@ std::vector<std::array<float, 3>> voxel_normals(const VoxelTile& tile) {
   parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) ring[v] = ring_moments(tile, v, per_side);
   });
-  std::vector<std::array<float, 3>> normals(tile.size());
+  std::vector<WindowPlane> planes(tile.size());
   parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       Moments m = ring[v];
       for (const std::uint32_t u : tile.neighbours_of(v))
         add_shifted(m, ring[u], offset(tile.positions[v], tile.positions[u], per_side));
-      normals[v] = normal_of(m);
+      planes[v] = plane_of(m);
     }
   });
+  ring = {};
+  std::vector<std::uint32_t> choice(tile.size());
+  std::iota(choice.begin(), choice.end(), 0U);
+  for (int ring_of_windows = 0; ring_of_windows < kWindowRings; ++ring_of_windows)
+    choice = better_windows(tile, planes, choice, per_side);
+  std::vector<std::array<float, 3>> normals(tile.size());
+  for (std::size_t v = 0; v < tile.size(); ++v) normals[v] = planes[choice[v]].normal;
   return normals;
 }
 
