@@ -1,7 +1,6 @@
 #pragma once
 /// @file Hash of voxel keys.
 
-#include <cstddef>
 #include <cstdint>
 
 #include "core/lattice.h"
@@ -18,11 +17,6 @@ inline std::uint32_t voxel_hash(std::int32_t x, std::int32_t y, std::int32_t z) 
 }
 inline std::uint32_t voxel_hash(const LatticePoint& key) {
   return voxel_hash(key.x, key.y, key.z);
-}
-
-/// Slot of a table of `slots` slots, from the upper bits of the hash.
-inline std::size_t home_slot(std::uint32_t hash, std::size_t slots) {
-  return static_cast<std::size_t>(std::uint64_t{hash} * slots >> 32);
 }
 
 }  // namespace arris::tiling
