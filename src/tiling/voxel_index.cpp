@@ -7,8 +7,7 @@
 namespace arris::tiling {
 namespace {
 
-// Slots are cheap and long searches are not.
-constexpr std::size_t kSlotsPerEightBlocks = 13;
+constexpr std::size_t kSlotsPerBlock = 2;
 
 }  // namespace
 
@@ -42,7 +41,7 @@ void VoxelIndex::finish() {
   bounds_.include(most_);
   blocks_.shrink_to_fit();
   words_.shrink_to_fit();
-  slots_ = HashSlots(blocks_.size() * kSlotsPerEightBlocks / 8 + 1, blocks_.size());
+  slots_ = HashSlots(blocks_.size() * kSlotsPerBlock, blocks_.size());
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const std::uint32_t hash = voxel_hash(blocks_[i].key);
     slots_.set(slots_.find(hash, [](std::uint32_t) { return false; }), hash, static_cast<std::uint32_t>(i));

@@ -8,14 +8,12 @@
 namespace arris::tiling {
 namespace {
 
-constexpr std::size_t kBatch = 256;
+constexpr std::size_t kBatch = 128;
 constexpr std::size_t kGrowth = 8;
 constexpr std::uint32_t kFull = 0xffffffffU;
 
-// A slot and a half per sum when the table is full.
-constexpr std::size_t slots_for(std::size_t sums) {
-  return sums + sums / 2 + 1;
-}
+// No more memory than sorting takes afterwards.
+constexpr std::size_t kSlotsPerSum = 3;
 
 }  // namespace
 
@@ -73,7 +71,7 @@ void VoxelTable::start_colours() {
 void VoxelTable::rehash(std::size_t slots) {
   free_slots();
   slots_ = HashSlots(slots, std::max(capacity_, size_));
-  slots_full_at_ = slots * 2 / 3;
+  slots_full_at_ = slots / kSlotsPerSum;
   // Of sums of one voxel the last is the one that is not full.
   constexpr std::size_t kAhead = 16;
   for (std::size_t i = size_; i > 0; --i) {
@@ -102,7 +100,7 @@ inline std::uint32_t VoxelTable::begin_sum(const LatticePoint& key) {
 /// Index of the sum to add to, kFull if there is none and no room.
 inline std::uint32_t VoxelTable::find_or_begin(const LatticePoint& key, std::uint32_t hash) {
   if (size_ >= slots_full_at_) {
-    first_slots_ = std::min(kGrowth * slots_.size(), std::max(slots_for(capacity_ + 1), kFirstSlots));
+    first_slots_ = std::min(kGrowth * slots_.size(), std::max(kSlotsPerSum * (capacity_ + 1), kFirstSlots));
     rehash(first_slots_);
   }
   const std::size_t slot = find(key, hash);
