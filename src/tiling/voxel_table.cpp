@@ -5,6 +5,12 @@
 
 #include "tiling/voxel_hash.h"
 
+#if defined(__GNUC__) && defined(__x86_64__)
+#define ARRIS_AVX2_BATCHES 1
+#else
+#define ARRIS_AVX2_BATCHES 0
+#endif
+
 namespace arris::tiling {
 namespace {
 
@@ -24,29 +30,41 @@ struct VoxelTable::Batch {
 
   LatticePoint key(std::size_t i) const { return {x[i], y[i], z[i]}; }
 
+  void fill(const VoxelGrid& grid, std::span<const LatticePoint> positions) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      offset_x[i] = static_cast<std::uint32_t>(positions[i].x);
+      offset_y[i] = static_cast<std::uint32_t>(positions[i].y);
+      offset_z[i] = static_cast<std::uint32_t>(positions[i].z);
+    }
+#if ARRIS_AVX2_BATCHES
+    static const bool avx2 = __builtin_cpu_supports("avx2");
+    if (avx2) return divide_avx2(grid);
+#endif
+    divide(grid);
+  }
+
+ private:
+  /// Whole arrays, axis by axis: these loops vectorise. Integers and one product each: the same bits everywhere.
+  __attribute__((always_inline)) void divide(const VoxelGrid& grid) {
+    divide(grid, offset_x, x);
+    divide(grid, offset_y, y);
+    divide(grid, offset_z, z);
+    for (std::size_t i = 0; i < kBatch; ++i) hash[i] = voxel_hash(x[i], y[i], z[i]);
+  }
   /// Positions become offsets in voxels.
-  static void split(const VoxelGrid& grid, std::array<std::uint32_t, kBatch>& offset,
-                    std::array<std::int32_t, kBatch>& voxel) {
+  __attribute__((always_inline)) static void divide(const VoxelGrid& grid, std::array<std::uint32_t, kBatch>& offset,
+                                                    std::array<std::int32_t, kBatch>& voxel) {
     const auto side = static_cast<std::uint32_t>(grid.side_steps());
     for (std::size_t i = 0; i < kBatch; ++i) {
       voxel[i] = grid.voxel_of(static_cast<std::int32_t>(offset[i]));
       offset[i] -= static_cast<std::uint32_t>(voxel[i]) * side;
     }
   }
-
-  void fill(const VoxelGrid& grid, std::span<const LatticePoint> positions) {
-    const std::size_t count = positions.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      offset_x[i] = static_cast<std::uint32_t>(positions[i].x);
-      offset_y[i] = static_cast<std::uint32_t>(positions[i].y);
-      offset_z[i] = static_cast<std::uint32_t>(positions[i].z);
-    }
-    // Whole arrays, axis by axis: these loops vectorise.
-    split(grid, offset_x, x);
-    split(grid, offset_y, y);
-    split(grid, offset_z, z);
-    for (std::size_t i = 0; i < kBatch; ++i) hash[i] = voxel_hash(x[i], y[i], z[i]);
+#if ARRIS_AVX2_BATCHES
+  __attribute__((target("avx2"))) void divide_avx2(const VoxelGrid& grid) {
+    divide(grid);
   }
+#endif
 };
 
 VoxelTable::VoxelTable(const VoxelGrid& grid, std::size_t size_bytes) : grid_(grid), size_bytes_(size_bytes) {
