@@ -4,18 +4,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "core/lattice.h"
 #include "tiling/growing_array.h"
+#include "tiling/hash_slots.h"
 
 namespace arris::tiling {
 
 /// Which voxels exist, and the rank of each in Z-order (morton.h). Blocks of 8x8x8 voxels with a bit per voxel: about
-/// 105 bytes per block, 1.5 to 3 bytes per voxel of a surface. Immutable once filled; reading is thread-safe.
+/// 65 bytes per block, 1 to 3 bytes per voxel of a surface. Immutable once filled; reading is thread-safe.
 class VoxelIndex {
  public:
-  static constexpr std::uint32_t kNone = 0xffffffffU;
+  static constexpr std::uint32_t kNone = HashSlots::kNone;
 
   /// Keys in strictly ascending Z-order, fewer than 2^32 - 1.
   void append(const LatticePoint& key);
@@ -34,10 +34,13 @@ class VoxelIndex {
     }
     const Entry& entry = blocks_[hint];
     const std::uint32_t place = place_in_block(key);
-    const std::uint64_t word = entry.words[place >> 6];
+    const std::uint32_t part = place >> 6;
+    if ((entry.parts >> (24 + part) & 1) == 0) return kNone;
+    const std::uint64_t word = words_[entry.first_word + (entry.parts >> 3 * ((part - 1) & 7) & 7)];
     const std::uint64_t bit = std::uint64_t{1} << (place & 63);
     if ((word & bit) == 0) return kNone;
-    return entry.first_rank + entry.before[place >> 6] + ones(word & (bit - 1));
+    const auto before = static_cast<std::uint32_t>(entry.before >> 9 * ((part - 1) & 7) & 511);
+    return entry.first_rank + before + ones(word & (bit - 1));
   }
   std::uint32_t rank(const LatticePoint& key) const {
     std::uint32_t hint = 0;
@@ -45,7 +48,9 @@ class VoxelIndex {
   }
   /// Of the keys, half-open; empty if there are none.
   const LatticeBox& bounds() const { return bounds_; }
-  std::uint64_t memory_bytes() const { return blocks_.memory_bytes() + slots_.size() * sizeof(std::uint32_t); }
+  std::uint64_t memory_bytes() const {
+    return blocks_.memory_bytes() + words_.memory_bytes() + slots_.size() * sizeof(std::uint32_t);
+  }
 
   struct Block {
     LatticePoint key;          ///< Voxel keys >> 3.
@@ -59,12 +64,16 @@ class VoxelIndex {
 
  private:
   static constexpr int kLog2 = 3;
+  /// 32 bytes. The eight parts of a block, 4x4x4 voxels each, have a word of bits in words_, unless they are empty.
+  /// The fields of part 0 would be zero: they are not stored, and (part - 1) & 7 leads to bits that are zero.
   struct Entry {
     LatticePoint key;
     std::uint32_t first_rank;
-    std::array<std::uint64_t, 8> words;   // A bit per voxel, in Z-order.
-    std::array<std::uint16_t, 8> before;  // Voxels in the words before.
+    std::uint64_t before;  // From bit 9 (part - 1) on: voxels in the parts before.
+    std::uint32_t first_word;
+    std::uint32_t parts;  // From bit 3 (part - 1) on: words before that of the part; bit 24 + part: it has one.
   };
+  static_assert(sizeof(Entry) == 32);
 
   static std::uint32_t place_in_block(const LatticePoint& key) {
     constexpr std::array<std::uint8_t, 8> kSpread{0, 1, 8, 9, 64, 65, 72, 73};
@@ -82,10 +91,8 @@ class VoxelIndex {
   LatticeBox bounds_;
   LatticePoint least_, most_;
   GrowingArray<Entry> blocks_;
-  // Open addressing over blocks_: the low index_bits_ bits are the index, all ones if the slot is free; the bits above
-  // are low bits of the hash, so that other blocks are seldom looked at.
-  std::vector<std::uint32_t> slots_;
-  int index_bits_ = 0;
+  GrowingArray<std::uint64_t> words_;  // A bit per voxel, in Z-order.
+  HashSlots slots_;                    // To blocks_.
 };
 
 }  // namespace arris::tiling

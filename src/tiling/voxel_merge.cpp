@@ -13,22 +13,26 @@ VoxelMerge::VoxelMerge(std::span<const std::unique_ptr<VoxelRun>> runs, std::siz
     if (run->read(records_[number])) heap_.push_back({records_[number].sums.key, number});
   }
   for (std::size_t at = heap_.size() / 2; at > 0; --at) sift_down(at - 1);
+  find_second();
 }
 
-bool VoxelMerge::next(VoxelRecord& record) {
-  if (heap_.empty()) return false;
+void VoxelMerge::advance(VoxelRecord& record) {
   Head& first = heap_.front();
   VoxelRecord& head = records_[first.run];
   record = head;
   if (runs_[first.run]->read(head)) {
-    if (first.key == head.sums.key) return true;
     first.key = head.sums.key;
+    if (heap_.size() == 1 || !z_order_less(heap_[second_].key, first.key)) return;
   } else {
     first = heap_.back();
     heap_.pop_back();
   }
   sift_down(0);
-  return true;
+  find_second();
+}
+
+void VoxelMerge::find_second() {
+  second_ = heap_.size() > 2 && z_order_less(heap_[2].key, heap_[1].key) ? 2 : 1;
 }
 
 void VoxelMerge::sift_down(std::size_t at) {

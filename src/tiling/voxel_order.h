@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "tiling/page_array.h"
 #include "tiling/voxel_sums.h"
 
 namespace arris::tiling {
@@ -15,6 +15,6 @@ constexpr std::size_t kOrderBytes = 2 * (sizeof(std::uint64_t) + sizeof(std::uin
 
 /// Indices of the sums (fewer than 2^32) in Z-order of their keys, equal keys side by side. Radix sort, O(n); O(n log
 /// n) where the keys are too far apart for z_order_key.h.
-std::vector<std::uint32_t> z_order_of(std::span<const VoxelSums> sums);
+PageArray<std::uint32_t> z_order_of(std::span<const VoxelSums> sums);
 
 }  // namespace arris::tiling

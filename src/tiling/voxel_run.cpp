@@ -1,7 +1,6 @@
 #include "tiling/voxel_run.h"
 
 #include <algorithm>
-#include <cstring>
 #include <span>
 #include <utility>
 
@@ -19,17 +18,6 @@ VoxelRun::VoxelRun(std::filesystem::path path, bool colours, std::size_t buffer_
       record_bytes_(colours ? sizeof(VoxelRecord) : sizeof(VoxelSums)),
       buffer_(buffer_for(record_bytes_, buffer_bytes)),
       hasher_(std::in_place) {}
-
-void VoxelRun::put(const VoxelRecord& record) {
-  std::memcpy(buffer_.data() + used_, &record, record_bytes_);
-  used_ += record_bytes_;
-}
-
-void VoxelRun::get(VoxelRecord& record) {
-  record.colour = {};
-  std::memcpy(&record, buffer_.data() + used_, record_bytes_);
-  used_ += record_bytes_;
-}
 
 void VoxelRun::flush() {
   const auto bytes = std::span<const std::byte>(buffer_).first(used_);

@@ -33,7 +33,7 @@ inline std::uint32_t most_points_summed(std::int32_t side_steps, bool colours) {
   return colours ? std::min(by_offset, kMost / std::numeric_limits<std::uint16_t>::max()) : by_offset;
 }
 
-/// Sums of all points of a voxel. Exact up to 2^44 points.
+/// Sums of all points of a voxel. Exact up to 2^38 points: nothing exceeds 2^63 then.
 class VoxelTotal {
  public:
   explicit VoxelTotal(const LatticePoint& key) : key_(key) {}
@@ -53,11 +53,9 @@ class VoxelTotal {
     voxel.points =
         static_cast<std::uint32_t>(std::min<std::uint64_t>(points_, std::numeric_limits<std::uint32_t>::max()));
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      // Whole steps first, so that no product overflows.
-      const std::uint64_t rest = offset_[axis] % points_;
-      voxel.centroid[axis] =
-          static_cast<std::uint32_t>(offset_[axis] / points_ * kVoxelFractions + rounded(rest * kVoxelFractions));
+      voxel.centroid[axis] = static_cast<std::uint32_t>(rounded(offset_[axis] * kVoxelFractions));
     }
+    if ((colour_[0] | colour_[1] | colour_[2]) == 0) return voxel;
     for (std::size_t channel = 0; channel < 3; ++channel) {
       voxel.colour[channel] = static_cast<std::uint16_t>(rounded(colour_[channel]));
     }

@@ -5,50 +5,71 @@
 
 #include "tiling/voxel_hash.h"
 
+#if defined(__GNUC__) && defined(__x86_64__)
+#define ARRIS_AVX2_BATCHES 1
+#else
+#define ARRIS_AVX2_BATCHES 0
+#endif
+
 namespace arris::tiling {
 namespace {
 
-constexpr std::size_t kBatch = 256;
-constexpr std::size_t kFirstSlots = 4096;
+constexpr std::size_t kBatch = 128;
+constexpr std::size_t kGrowth = 8;
 constexpr std::uint32_t kFull = 0xffffffffU;
 
-// A slot and a half per sum at least, two and a half at most.
-constexpr std::size_t slots_for(std::size_t sums) {
-  return sums + sums / 2 + 1;
-}
+// No more memory than sorting takes afterwards.
+constexpr std::size_t kSlotsPerSum = 3;
 
 }  // namespace
 
 /// Voxels of the points of a batch, by arrays.
 struct VoxelTable::Batch {
-  std::array<std::int32_t, kBatch> x, y, z;
-  std::array<std::uint32_t, kBatch> offset_x, offset_y, offset_z, hash;
+  std::array<std::int32_t, kBatch> x{}, y{}, z{};
+  std::array<std::uint32_t, kBatch> offset_x{}, offset_y{}, offset_z{}, hash{};
 
   LatticePoint key(std::size_t i) const { return {x[i], y[i], z[i]}; }
 
   void fill(const VoxelGrid& grid, std::span<const LatticePoint> positions) {
-    const auto side = static_cast<std::uint32_t>(grid.side_steps());
-    const auto offset = [side](std::int32_t position, std::int32_t voxel) {
-      return static_cast<std::uint32_t>(position) - static_cast<std::uint32_t>(voxel) * side;  // In [0, side).
-    };
-    const std::size_t count = positions.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      x[i] = grid.voxel_of(positions[i].x);
-      y[i] = grid.voxel_of(positions[i].y);
-      z[i] = grid.voxel_of(positions[i].z);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      offset_x[i] = static_cast<std::uint32_t>(positions[i].x);
+      offset_y[i] = static_cast<std::uint32_t>(positions[i].y);
+      offset_z[i] = static_cast<std::uint32_t>(positions[i].z);
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      offset_x[i] = offset(positions[i].x, x[i]);
-      offset_y[i] = offset(positions[i].y, y[i]);
-      offset_z[i] = offset(positions[i].z, z[i]);
-    }
-    for (std::size_t i = 0; i < count; ++i) hash[i] = voxel_hash(x[i], y[i], z[i]);
+#if ARRIS_AVX2_BATCHES
+    static const bool avx2 = __builtin_cpu_supports("avx2");
+    if (avx2) return divide_avx2(grid);
+#endif
+    divide(grid);
   }
+
+ private:
+  /// Whole arrays, axis by axis: these loops vectorise. Integers and one product each: the same bits everywhere.
+  __attribute__((always_inline)) void divide(const VoxelGrid& grid) {
+    divide(grid, offset_x, x);
+    divide(grid, offset_y, y);
+    divide(grid, offset_z, z);
+    for (std::size_t i = 0; i < kBatch; ++i) hash[i] = voxel_hash(x[i], y[i], z[i]);
+  }
+  /// Positions become offsets in voxels.
+  __attribute__((always_inline)) static void divide(const VoxelGrid& grid, std::array<std::uint32_t, kBatch>& offset,
+                                                    std::array<std::int32_t, kBatch>& voxel) {
+    const auto side = static_cast<std::uint32_t>(grid.side_steps());
+    for (std::size_t i = 0; i < kBatch; ++i) {
+      voxel[i] = grid.voxel_of(static_cast<std::int32_t>(offset[i]));
+      offset[i] -= static_cast<std::uint32_t>(voxel[i]) * side;
+    }
+  }
+#if ARRIS_AVX2_BATCHES
+  __attribute__((target("avx2"))) void divide_avx2(const VoxelGrid& grid) {
+    divide(grid);
+  }
+#endif
 };
 
 VoxelTable::VoxelTable(const VoxelGrid& grid, std::size_t size_bytes) : grid_(grid), size_bytes_(size_bytes) {
   set_capacity();
-  sums_.reserve(capacity_);  // Pages that are not written to take no memory.
+  sums_ = PageArray<VoxelSums>(capacity_);
 }
 
 void VoxelTable::set_capacity() {
@@ -61,20 +82,21 @@ void VoxelTable::set_capacity() {
 void VoxelTable::start_colours() {
   has_colours_ = true;
   set_capacity();
-  colours_.reserve(capacity_);
-  colours_.resize(sums_.size());
+  colours_ = PageArray<ColourSums>(std::max(capacity_, size_));
+  std::ranges::fill(colours_.first(size_), ColourSums{});
 }
 
 void VoxelTable::rehash(std::size_t slots) {
   free_slots();
-  slots_.assign(slots, 0);
-  slots_full_at_ = slots * 2 / 3;
+  slots_ = HashSlots(slots, std::max(capacity_, size_));
+  slots_full_at_ = slots / kSlotsPerSum;
   // Of sums of one voxel the last is the one that is not full.
-  for (std::size_t i = sums_.size(); i > 0; --i) {
-    const LatticePoint& key = sums_[i - 1].key;
-    std::size_t slot = home_slot(voxel_hash(key), slots);
-    while (slots_[slot] != 0 && !(sums_[slots_[slot] - 1].key == key)) slot = slot + 1 == slots ? 0 : slot + 1;
-    if (slots_[slot] == 0) slots_[slot] = static_cast<std::uint32_t>(i);
+  constexpr std::size_t kAhead = 16;
+  for (std::size_t i = size_; i > 0; --i) {
+    if (i > kAhead) slots_.prefetch(voxel_hash(sums_[i - 1 - kAhead].key));
+    const std::uint32_t hash = voxel_hash(sums_[i - 1].key);
+    const std::size_t slot = find(sums_[i - 1].key, hash);
+    if (slots_.at(slot) == HashSlots::kNone) slots_.set(slot, hash, static_cast<std::uint32_t>(i - 1));
   }
 }
 
@@ -83,39 +105,46 @@ void VoxelTable::free_slots() {
   slots_full_at_ = 0;
 }
 
-std::uint32_t VoxelTable::begin_sum(const LatticePoint& key) {
-  sums_.push_back({key, 0, {}});
-  if (has_colours_) colours_.push_back({});
-  return static_cast<std::uint32_t>(sums_.size() - 1);
+inline std::size_t VoxelTable::find(const LatticePoint& key, std::uint32_t hash) const {
+  return slots_.find(hash, [&](std::uint32_t index) { return sums_[index].key == key; });
+}
+
+inline std::uint32_t VoxelTable::begin_sum(const LatticePoint& key) {
+  sums_[size_] = {key, 0, {}};
+  if (has_colours_) colours_[size_] = {};
+  return static_cast<std::uint32_t>(size_++);
 }
 
 /// Index of the sum to add to, kFull if there is none and no room.
-template <bool kColours>
-std::uint32_t VoxelTable::find_or_begin(const LatticePoint& key, std::uint32_t hash) {
-  if (sums_.size() >= slots_full_at_) {
-    rehash(std::min(std::max(2 * slots_.size(), kFirstSlots), std::max(slots_for(capacity_ + 1), kFirstSlots)));
+inline std::uint32_t VoxelTable::find_or_begin(const LatticePoint& key, std::uint32_t hash) {
+  if (size_ >= slots_full_at_) {
+    first_slots_ = std::min(kGrowth * slots_.size(), std::max(kSlotsPerSum * (capacity_ + 1), kFirstSlots));
+    rehash(first_slots_);
   }
-  const std::size_t slots = slots_.size();
-  std::size_t slot = home_slot(hash, slots);
-  for (; slots_[slot] != 0; slot = slot + 1 == slots ? 0 : slot + 1) {
-    const std::uint32_t index = slots_[slot] - 1;
-    if (!(sums_[index].key == key)) continue;
-    if (sums_[index].points < most_points_) return index;
-    break;
+  const std::size_t slot = find(key, hash);
+  if (const std::uint32_t index = slots_.at(slot); index != HashSlots::kNone && sums_[index].points < most_points_) {
+    return index;
   }
-  if (sums_.size() >= capacity_) return kFull;
+  if (size_ >= capacity_) return kFull;
   const std::uint32_t index = begin_sum(key);
-  slots_[slot] = index + 1;
+  slots_.set(slot, hash, index);
   return index;
 }
 
 template <bool kColours>
 std::size_t VoxelTable::add_batch(const Batch& batch, std::size_t count, const RawColour* colours) {
+  if (slots_.size() == 0) rehash(first_slots_);
+  // Most misses of the cache are over before the points are added one by one.
+  for (std::size_t i = 0; i < count; ++i) slots_.prefetch(batch.hash[i]);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t guess = slots_.first(batch.hash[i]);
+    if (guess != HashSlots::kNone) __builtin_prefetch(&sums_[guess]);
+  }
   std::uint32_t index = kFull;
   for (std::size_t i = 0; i < count; ++i) {
     const LatticePoint key = batch.key(i);
     if (index == kFull || !(sums_[index].key == key) || sums_[index].points >= most_points_) {
-      index = find_or_begin<kColours>(key, batch.hash[i]);
+      index = find_or_begin(key, batch.hash[i]);
       if (index == kFull) return i;
     }
     VoxelSums& sums = sums_[index];

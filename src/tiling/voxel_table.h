@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/voxel.h"
+#include "tiling/hash_slots.h"
+#include "tiling/page_array.h"
 #include "tiling/voxel_order.h"
 #include "tiling/voxel_sums.h"
 
@@ -24,7 +25,7 @@ class VoxelTable {
   /// Adds points from the first on; returns how many. Fewer than all only if the table is full.
   /// @param colours  as many as positions, or none.
   std::size_t add(std::span<const LatticePoint> positions, std::span<const RawColour> colours);
-  bool empty() const { return sums_.empty(); }
+  bool empty() const { return size_ == 0; }
   bool has_colours() const { return has_colours_; }
 
   /// Calls visit(const VoxelRecord&) for all sums in Z-order of voxels, those of one voxel one after another, and
@@ -32,23 +33,23 @@ class VoxelTable {
   template <class Visit>
   void drain(Visit&& visit) {
     free_slots();
-    const std::vector<std::uint32_t> order = z_order_of(sums_);
+    const PageArray<std::uint32_t> order = z_order_of(sums_.first(size_));
     constexpr std::size_t kAhead = 16;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      if (i + kAhead < order.size()) __builtin_prefetch(&sums_[order[i + kAhead]]);
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (i + kAhead < size_) __builtin_prefetch(&sums_[order[i + kAhead]]);
       VoxelRecord record{sums_[order[i]], {}};
       if (has_colours_) record.colour = colours_[order[i]];
       visit(record);
     }
-    sums_.clear();
-    colours_.clear();
+    size_ = 0;
   }
 
  private:
+  static constexpr std::size_t kFirstSlots = std::size_t{1} << 16;
   struct Batch;
   template <bool kColours>
   std::size_t add_batch(const Batch& batch, std::size_t count, const RawColour* colours);
-  template <bool kColours>
+  std::size_t find(const LatticePoint& key, std::uint32_t hash) const;
   std::uint32_t find_or_begin(const LatticePoint& key, std::uint32_t hash);
   std::uint32_t begin_sum(const LatticePoint& key);
   void start_colours();
@@ -61,10 +62,12 @@ class VoxelTable {
   std::size_t capacity_ = 0;
   std::uint32_t most_points_ = 0;
   bool has_colours_ = false;
-  std::vector<VoxelSums> sums_;
-  std::vector<ColourSums> colours_;   // As many as sums_ if has_colours_.
-  std::vector<std::uint32_t> slots_;  // Index into sums_ + 1, 0: free.
-  std::size_t slots_full_at_ = 0;     // Sums at which slots_ must grow.
+  std::size_t size_ = 0;
+  PageArray<VoxelSums> sums_;
+  PageArray<ColourSums> colours_;          // Beside sums_, if has_colours_.
+  HashSlots slots_;                        // To sums_.
+  std::size_t first_slots_ = kFirstSlots;  // As many as the table had last.
+  std::size_t slots_full_at_ = 0;          // Sums at which slots_ must grow.
 };
 
 }  // namespace arris::tiling

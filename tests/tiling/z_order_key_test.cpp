@@ -69,10 +69,10 @@ RC_GTEST_PROP(VoxelOrder, AnySums_AreSorted, (std::uint64_t seed)) {
     s.key = {within(x), within(y), within(z)};
     if (random() % 4 == 0) s.key = sums[random() % sums.size()].key;
   }
-  const std::vector<std::uint32_t> order = z_order_of(sums);
-  RC_ASSERT(order.size() == sums.size());
+  const PageArray<std::uint32_t> sorted = z_order_of(sums);
+  const std::span<const std::uint32_t> order = sorted.first(sums.size());
   for (std::size_t i = 1; i < order.size(); ++i) RC_ASSERT(!z_order_less(sums[order[i]].key, sums[order[i - 1]].key));
-  std::vector<std::uint32_t> indices = order;
+  std::vector<std::uint32_t> indices(order.begin(), order.end());
   std::ranges::sort(indices);
   for (std::size_t i = 0; i < indices.size(); ++i) RC_ASSERT(indices[i] == i);
 }
