@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -85,6 +86,15 @@ void measure_index(const arris::tiling::VoxelStore& store, const std::vector<arr
       }
     }
   });
+  const double around = best_ns(voxels.size(), [&] {
+    std::uint32_t hint = 0;
+    std::array<std::uint32_t, 27> ranks{};
+    for (const arris::Voxel& voxel : voxels) {
+      index.ranks_around(voxel.key, hint, ranks);
+      sum += ranks[0] + ranks[26];
+    }
+  });
+  fmt::print("ranks_around {:.1f} ns per voxel\n", around);
   fmt::print(
       "voxel_of {:.1f} ns, rank of all points {:.1f} ns more, rank of 26 neighbours {:.1f} ns each ({:.1f} of 26 "
       "exist, {})\n",

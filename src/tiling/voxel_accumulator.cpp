@@ -93,7 +93,7 @@ struct VoxelAccumulator::Impl {
   }
 
   std::size_t read_bytes(std::size_t count) const {
-    return std::clamp(free_bytes / count, std::size_t{1}, kMostReadBytes);
+    return std::clamp(free_bytes / count, sizeof(VoxelRecord), kMostReadBytes);
   }
 
   /// Replaces the first `count` runs by one at the end.

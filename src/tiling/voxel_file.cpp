@@ -32,7 +32,7 @@ void VoxelFile::flush() {
 
 void VoxelFile::finish() {
   flush();
-  buffer_ = {};
+  std::vector<Voxel>().swap(buffer_);  // Assigning {} would keep the memory.
   checksums_.shrink_to_fit();
 }
 

@@ -5,11 +5,11 @@
 namespace arris::tiling {
 
 VoxelMerge::VoxelMerge(std::span<const std::unique_ptr<VoxelRun>> runs, std::size_t buffer_bytes)
-    : records_(runs.size()) {
+    : buffers_(runs.size() * buffer_bytes), records_(runs.size()) {
   for (const auto& run : runs) {
     const auto number = static_cast<std::uint32_t>(runs_.size());
     runs_.push_back(run.get());
-    run->open(buffer_bytes);
+    run->open(buffers_.first(runs.size() * buffer_bytes).subspan(number * buffer_bytes, buffer_bytes));
     if (run->read(records_[number])) heap_.push_back({records_[number].sums.key, number});
   }
   for (std::size_t at = heap_.size() / 2; at > 0; --at) sift_down(at - 1);

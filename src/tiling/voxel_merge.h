@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "tiling/page_array.h"
 #include "tiling/voxel_run.h"
 
 namespace arris::tiling {
@@ -33,6 +34,7 @@ class VoxelMerge {
   void sift_down(std::size_t at);
   void find_second();
 
+  PageArray<std::byte> buffers_;
   std::vector<VoxelRun*> runs_;
   std::vector<VoxelRecord> records_;  // Next of each run.
   std::vector<Head> heap_;            // Smallest first.

@@ -1,26 +1,18 @@
 #include "tiling/voxel_run.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 namespace arris::tiling {
-namespace {
-
-std::vector<std::byte> buffer_for(std::size_t record_bytes, std::size_t bytes) {
-  return std::vector<std::byte>(std::max<std::size_t>(bytes / record_bytes, 1) * record_bytes);
-}
-
-}  // namespace
-
 VoxelRun::VoxelRun(std::filesystem::path path, bool colours, std::size_t buffer_bytes)
     : file_(std::move(path)),
       record_bytes_(colours ? sizeof(VoxelRecord) : sizeof(VoxelSums)),
-      buffer_(buffer_for(record_bytes_, buffer_bytes)),
+      own_buffer_(std::max(buffer_bytes / record_bytes_, std::size_t{1}) * record_bytes_),
+      buffer_(own_buffer_),
       hasher_(std::in_place) {}
 
 void VoxelRun::flush() {
-  const auto bytes = std::span<const std::byte>(buffer_).first(used_);
+  const auto bytes = std::span<const std::byte>(buffer_.first(used_));
   hasher_->update(bytes.data(), bytes.size());
   file_.append(bytes);
   used_ = 0;
@@ -31,13 +23,13 @@ void VoxelRun::close() {
   digest_ = hasher_->digest();
   hasher_.reset();
   file_.close();
-  buffer_ = {};
+  std::vector<std::byte>().swap(own_buffer_);  // Assigning {} would keep the memory.
 }
 
-void VoxelRun::open(std::size_t buffer_bytes) {
+void VoxelRun::open(std::span<std::byte> buffer) {
   file_.reopen();
   hasher_.emplace();
-  buffer_ = buffer_for(record_bytes_, buffer_bytes);
+  buffer_ = buffer.first(buffer.size() / record_bytes_ * record_bytes_);
   position_ = 0;
   used_ = filled_ = 0;
 }
@@ -49,7 +41,7 @@ bool VoxelRun::refill() {
     if (hasher_->digest() != digest_) file_.throw_damaged();
     return false;
   }
-  const auto bytes = std::span(buffer_).first(filled_);
+  const auto bytes = buffer_.first(filled_);
   file_.read_at(position_, bytes);
   hasher_->update(bytes.data(), bytes.size());
   position_ += filled_;

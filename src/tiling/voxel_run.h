@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "tiling/checked_file.h"
@@ -30,8 +31,8 @@ class VoxelRun {
   /// Ends writing; frees the buffer and the descriptor.
   void close();
 
-  /// Begins reading.
-  void open(std::size_t buffer_bytes);
+  /// Begins reading, by way of a buffer of at least one record, which must live as long as the run is read.
+  void open(std::span<std::byte> buffer);
   /// The next record; false at the end, after the whole run was verified. Leaves `record.colour` alone if the run has
   /// no colours.
   bool read(VoxelRecord& record) {
@@ -51,7 +52,8 @@ class VoxelRun {
 
   ScratchFile file_;
   std::size_t record_bytes_;
-  std::vector<std::byte> buffer_;
+  std::vector<std::byte> own_buffer_;  // While the run is written.
+  std::span<std::byte> buffer_;
   std::size_t used_ = 0;    // Bytes of the buffer written or read.
   std::size_t filled_ = 0;  // Bytes of the buffer that hold records to read.
   std::uint64_t position_ = 0;

@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -64,6 +65,26 @@ RC_GTEST_PROP(VoxelIndex, AnyKeys_HaveTheirRanksAndOthersNone, ()) {
     const std::uint32_t expected = found == ranks.end() ? VoxelIndex::kNone : found->second;
     RC_ASSERT(index.rank(key, hint) == expected);
     RC_ASSERT(index.rank(key) == expected);
+  }
+}
+
+RC_GTEST_PROP(VoxelIndex, RanksAround_AreThoseOfTheNeighbours, ()) {
+  const auto keys = in_z_order(test::any_cloud(1, 1500));
+  const VoxelIndex index = index_of(keys);
+  auto hint = *rc::gen::arbitrary<std::uint32_t>().as("hint");
+  std::mt19937_64 random(keys.size());
+  for (int i = 0; i < 300; ++i) {
+    LatticePoint key = keys[random() % keys.size()];
+    if (i % 3 == 0) key.z = test::clamp_to_int32(std::int64_t{key.z} + 1);  // Perhaps no voxel itself.
+    std::array<std::uint32_t, 27> ranks;
+    index.ranks_around(key, hint, ranks);
+    for (int at = 0; at < 27; ++at) {
+      const std::int64_t x = std::int64_t{key.x} + at / 9 - 1, y = std::int64_t{key.y} + at / 3 % 3 - 1,
+                         z = std::int64_t{key.z} + at % 3 - 1;
+      const LatticePoint p{test::clamp_to_int32(x), test::clamp_to_int32(y), test::clamp_to_int32(z)};
+      const bool exists = p.x == x && p.y == y && p.z == z;
+      RC_ASSERT(ranks[static_cast<std::size_t>(at)] == (exists ? index.rank(p) : VoxelIndex::kNone));
+    }
   }
 }
 
