@@ -15,20 +15,32 @@ constexpr std::size_t kGrain = 16 * 1024;
 constexpr float kNormalUnits = 32767.0F;
 constexpr float kColourUnits = 256.0F;
 constexpr std::size_t kLocks = 256;
+/// Members within 30 degrees of the mean normal lie on the surface of most; where two surfaces are mixed in equal parts
+/// none do.
+constexpr float kFacingCosine = 0.8660254F;
 
-struct Sums {
+struct SurfaceSums {
   std::int64_t voxels = 0;
   std::array<std::int64_t, 3> position{};  ///< From the seed's position.
-  std::array<std::int64_t, 3> normal{};
-  std::array<std::int64_t, 3> colour{};
+  std::array<std::int64_t, 3> normal{};    ///< Signs as the centre's.
 
-  void add(const Sums& other) {
+  void add(const SurfaceSums& other) {
     voxels += other.voxels;
     for (std::size_t i = 0; i < 3; ++i) {
       position[i] += other.position[i];
       normal[i] += other.normal[i];
-      colour[i] += other.colour[i];
     }
+  }
+};
+struct Sums {
+  SurfaceSums all;
+  SurfaceSums facing;  ///< Members that lie on the surface of most.
+  std::array<std::int64_t, 3> colour{};
+
+  void add(const Sums& other) {
+    all.add(other.all);
+    facing.add(other.facing);
+    for (std::size_t i = 0; i < 3; ++i) colour[i] += other.colour[i];
   }
 };
 using HistogramSums = std::array<std::int64_t, kHistogramBins>;
@@ -47,6 +59,14 @@ std::int64_t rounded_mean(std::int64_t sum, std::int64_t n) {  // Half up.
   const std::int64_t doubled = 2 * sum + n;
   const std::int64_t q = doubled / (2 * n);
   return q - (doubled % (2 * n) < 0);
+}
+
+std::array<float, 3> direction(const std::array<std::int64_t, 3>& sum) {
+  const std::array<double, 3> n{static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])};
+  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  std::array<float, 3> unit{};
+  for (std::size_t i = 0; i < 3; ++i) unit[i] = length > 0.0 ? static_cast<float>(n[i] / length) : 0.0F;
+  return unit;
 }
 
 std::int64_t units(float value, float per_one) {
@@ -88,14 +108,16 @@ struct ClusterTable::Impl {
     HistogramSums bins{};
     const ClusterCentre& centre = clusters.centres[cluster];
     for (const std::uint32_t v : voxels) {
-      ++run.voxels;
       const std::array<float, 3>& n = features.normals[v];
       const float cosine = n[0] * centre.normal[0] + n[1] * centre.normal[1] + n[2] * centre.normal[2];
+      SurfaceSums member{1, {}, {}};
       for (std::size_t i = 0; i < 3; ++i) {
-        run.position[i] += difference(tile.positions[v][i], clusters.seed_positions[cluster][i]);
-        run.normal[i] += units(cosine < 0.0F ? -n[i] : n[i], kNormalUnits);
+        member.position[i] = difference(tile.positions[v][i], clusters.seed_positions[cluster][i]);
+        member.normal[i] = units(cosine < 0.0F ? -n[i] : n[i], kNormalUnits);
         if (!features.colours.empty()) run.colour[i] += units(features.colours[v][i], kColourUnits);
       }
+      run.all.add(member);
+      if (std::abs(cosine) >= kFacingCosine) run.facing.add(member);
       if (histograms) {
         for (std::size_t i = 0; i < bins.size(); ++i) bins[i] += features.histograms[v][i];
       }
@@ -107,23 +129,33 @@ struct ClusterTable::Impl {
     }
   }
 
+  VoxelPosition mean_position(std::uint32_t cluster, const SurfaceSums& s) const {
+    VoxelPosition position = clusters.seed_positions[cluster];
+    for (std::size_t i = 0; i < 3; ++i)
+      position[i] += static_cast<std::uint32_t>(rounded_mean(s.position[i], s.voxels));
+    return position;
+  }
+
+  ClusterPlane plane(std::uint32_t cluster) const {
+    const SurfaceSums& s = sums[cluster].facing;
+    if (s.voxels == 0) return {};
+    return {mean_position(cluster, s), direction(s.normal)};
+  }
+
   void update(std::uint32_t cluster) {
     const Sums& s = sums[cluster];
-    if (s.voxels == 0) return;  // Cannot be: a seed keeps its own voxel.
+    if (s.all.voxels == 0) return;  // Cannot be: a seed keeps its own voxel.
     ClusterCentre& centre = clusters.centres[cluster];
+    centre.position = mean_position(cluster, s.all);
+    centre.normal = direction(s.all.normal);
     for (std::size_t i = 0; i < 3; ++i) {
-      centre.position[i] =
-          clusters.seed_positions[cluster][i] + static_cast<std::uint32_t>(rounded_mean(s.position[i], s.voxels));
       centre.colour[i] =
-          static_cast<float>(static_cast<double>(s.colour[i]) / (kColourUnits * static_cast<double>(s.voxels)));
+          static_cast<float>(static_cast<double>(s.colour[i]) / (kColourUnits * static_cast<double>(s.all.voxels)));
     }
-    const std::array<double, 3> n{static_cast<double>(s.normal[0]), static_cast<double>(s.normal[1]),
-                                  static_cast<double>(s.normal[2])};
-    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    for (std::size_t i = 0; i < 3; ++i) centre.normal[i] = length > 0.0 ? static_cast<float>(n[i] / length) : 0.0F;
     if (histograms) {
       for (std::size_t i = 0; i < kHistogramBins; ++i)
-        clusters.histograms[cluster][i] = static_cast<std::int16_t>(rounded_mean(histogram_sums[cluster][i], s.voxels));
+        clusters.histograms[cluster][i] =
+            static_cast<std::int16_t>(rounded_mean(histogram_sums[cluster][i], s.all.voxels));
     }
   }
 };
@@ -184,6 +216,12 @@ void ClusterTable::add_members(const VoxelTile& tile, const VoxelFeatures& featu
     }
     flush();
   });
+}
+
+std::vector<ClusterPlane> ClusterTable::planes() const {
+  std::vector<ClusterPlane> planes(impl_->clusters.size());
+  for (std::uint32_t c = 0; c < planes.size(); ++c) planes[c] = impl_->plane(c);
+  return planes;
 }
 
 void ClusterTable::update_centres() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "features/clusters.h"
+#include "features/point_refinement.h"
 #include "features/seed_cells.h"
 #include "features/supervoxel_parameters.h"
 #include "features/voxel_features.h"
@@ -36,6 +37,9 @@ class ClusterTable {
 
   /// @param clusters_of  per voxel of the tile; only those of the core are counted.
   void add_members(const VoxelTile& tile, const VoxelFeatures& features, std::span<const std::uint32_t> clusters_of);
+  /// Per cluster the plane of those members, of all added since the last update_centres(), whose normals are within 30
+  /// degrees of the centre's: that of the surface that most of a supervoxel lies on. No plane where there are none.
+  std::vector<ClusterPlane> planes() const;
   /// Centre: mean position (nearest fraction), mean normal (signs aligned with the old centre's), mean colour, mean
   /// histogram.
   void update_centres();

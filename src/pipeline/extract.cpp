@@ -54,10 +54,9 @@ TileAnalysis analysis_of(const JobPlan& plan, const LabelledScene* labelled) {
     return [&plan](const TilePoints& points) { return extract_contours(points, plan.survey.lattice, plan.method); };
   }
   return [&plan, labelled](const TilePoints& points) {
-    const VoxelLabels label_of = labelled->scene.labels();
+    VoxelLabels label_of = labelled->scene.labels();
     std::vector<std::uint32_t> labels(points.positions.size());
-    std::uint32_t hint = 0;
-    for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = label_of.at(points.positions[i], hint);
+    for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = label_of.at(points.positions[i]);
     return extract_zheng(points, labels, labelled->table, plan.survey.lattice, plan.method.zheng);
   };
 }

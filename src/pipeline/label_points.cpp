@@ -11,7 +11,7 @@ namespace {
 
 /// Calls use(batch, labels of its points); 0 for points that take no part.
 template <class Use>
-void for_each_labelled_batch(io::InputSet& inputs, const tiling::LatticeMapper& mapper, const VoxelLabels& labels,
+void for_each_labelled_batch(io::InputSet& inputs, const tiling::LatticeMapper& mapper, VoxelLabels& labels,
                              bool records, const CancelToken& cancel, Use&& use) {
   io::ReadOptions options;
   options.records = records;
@@ -19,7 +19,6 @@ void for_each_labelled_batch(io::InputSet& inputs, const tiling::LatticeMapper& 
   std::vector<LatticePoint> positions;
   std::vector<tiling::Mapped> outcome;
   std::vector<std::uint32_t> ids;
-  std::uint32_t hint = 0;
   inputs.rewind();
   while (inputs.read(batch, options)) {
     cancel.check();
@@ -27,7 +26,7 @@ void for_each_labelled_batch(io::InputSet& inputs, const tiling::LatticeMapper& 
     ids.assign(batch.count, 0);
     for (std::size_t i = 0; i < batch.count; ++i) {
       if (outcome[i] != tiling::Mapped::kOk) continue;
-      ids[i] = labels.at(positions[i], hint);
+      ids[i] = labels.at(positions[i]);
       if (ids[i] == 0) throw InputError("the inputs changed while they were read; run again when they are complete");
     }
     use(batch, positions, ids);
@@ -36,7 +35,7 @@ void for_each_labelled_batch(io::InputSet& inputs, const tiling::LatticeMapper& 
 
 }  // namespace
 
-void sum_moments(io::InputSet& inputs, const tiling::LatticeMapper& mapper, const VoxelLabels& labels,
+void sum_moments(io::InputSet& inputs, const tiling::LatticeMapper& mapper, VoxelLabels labels,
                  merge::SupervoxelMoments& moments, ProgressSink& progress, const CancelToken& cancel) {
   progress.phase("moments", inputs.points());
   for_each_labelled_batch(inputs, mapper, labels, false, cancel,
@@ -49,7 +48,7 @@ void sum_moments(io::InputSet& inputs, const tiling::LatticeMapper& mapper, cons
                           });
 }
 
-std::uint64_t write_labels(io::InputSet& inputs, const tiling::LatticeMapper& mapper, const VoxelLabels& labels,
+std::uint64_t write_labels(io::InputSet& inputs, const tiling::LatticeMapper& mapper, VoxelLabels labels,
                            std::vector<std::unique_ptr<io::KeptPointWriter>>& writers, ProgressSink& progress,
                            const CancelToken& cancel) {
   progress.phase("write", inputs.points());

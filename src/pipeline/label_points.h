@@ -15,12 +15,12 @@
 namespace arris::pipeline {
 
 /// Adds all points that take part to their supervoxels' moments.
-void sum_moments(io::InputSet& inputs, const tiling::LatticeMapper& mapper, const VoxelLabels& labels,
+void sum_moments(io::InputSet& inputs, const tiling::LatticeMapper& mapper, VoxelLabels labels,
                  merge::SupervoxelMoments& moments, ProgressSink& progress, const CancelToken& cancel);
 
 /// Writes every record with its label as one uint32 column (0: the point took no part). Does not commit. Returns the
 /// number of points.
-std::uint64_t write_labels(io::InputSet& inputs, const tiling::LatticeMapper& mapper, const VoxelLabels& labels,
+std::uint64_t write_labels(io::InputSet& inputs, const tiling::LatticeMapper& mapper, VoxelLabels labels,
                            std::vector<std::unique_ptr<io::KeptPointWriter>>& writers, ProgressSink& progress,
                            const CancelToken& cancel);
 

@@ -32,7 +32,7 @@ struct SupervoxelScene {
   std::uint64_t peak_temp_bytes = 0;
   std::uint64_t predicted_peak_bytes = 0;  ///< Of the process while supervoxels grew.
 
-  VoxelLabels labels() const { return VoxelLabels(store, clusters.ids); }
+  VoxelLabels labels() const { return VoxelLabels(store, clusters); }
 };
 
 /// Voxel pass and clustering. Throws BudgetError, IoError, Cancelled, and what reading throws.

@@ -49,7 +49,7 @@ class Stage {
       plan(table_.memory_bytes());
     for (int iteration = 1; iteration <= request_.parameters.iterations; ++iteration) grow(iteration);
     number();
-    if (request_.adjacency) collect_adjacency();
+    if (request_.adjacency || request_.refine) look_at_neighbours();
     return std::move(result_);
   }
 
@@ -117,9 +117,8 @@ class Stage {
         const std::vector<OrphanVoxel> orphans = settle_leftovers(tile.voxels, tile.features, table_.clusters(),
                                                                   request_.parameters, request_.scale, clusters_of);
         orphans_.insert(orphans_.end(), orphans.begin(), orphans.end());
-      } else {
-        table_.add_members(tile.voxels, tile.features, clusters_of);
       }
+      table_.add_members(tile.voxels, tile.features, clusters_of);
       for (std::size_t v = 0; v < clusters_of.size(); ++v) {
         if (tile.voxels.core[v] != 0) result_.ids[tile.voxels.ranks[v]] = clusters_of[v];
       }
@@ -160,29 +159,42 @@ class Stage {
       ++orphan;
     }
     orphans_ = {};
+    result_.planes.resize(std::size_t{result_.count} + 1);
+    const std::vector<ClusterPlane> planes = table_.planes();
+    for (std::uint32_t cluster = 0; cluster < clusters; ++cluster) result_.planes[id_of[cluster]] = planes[cluster];
   }
 
-  void collect_adjacency() {
-    progress_.phase("adjacency", store_.size());
+  /// Pairs of neighbours, and voxels that several surfaces share.
+  void look_at_neighbours() {
+    progress_.phase("neighbours", store_.size());
+    if (request_.refine) result_.shared.assign((std::size_t{store_.size()} + 63) / 64, 0);
     auto& pairs = result_.adjacency;
-    const auto make_unique = [&pairs] {
-      std::sort(pairs.begin(), pairs.end());
-      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    };
     for_each_tile(false, [&](const LoadedTile& tile) {
       for (std::size_t v = 0; v < tile.voxels.size(); ++v) {
-        if (tile.voxels.core[v] == 0) continue;
-        const std::uint32_t id = result_.ids[tile.voxels.ranks[v]];
-        std::uint32_t last = id;
-        for (const std::uint32_t u : tile.voxels.neighbours_of(v)) {
-          const std::uint32_t other = result_.ids[tile.voxels.ranks[u]];
-          if (other == id || other == last) continue;
-          last = other;
-          pairs.emplace_back(std::min(id, other), std::max(id, other));
-        }
+        if (tile.voxels.core[v] != 0) look_around(tile.voxels, v);
       }
-      make_unique();
+      std::sort(pairs.begin(), pairs.end());
+      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     });
+    // Every supervoxel keeps at least the points of one voxel.
+    if (request_.refine) {
+      for (const std::uint32_t rank : table_.clusters().seed_ranks)
+        result_.shared[rank >> 6] &= ~(std::uint64_t{1} << (rank & 63));
+    }
+  }
+
+  void look_around(const VoxelTile& tile, std::size_t v) {
+    const std::uint32_t rank = tile.ranks[v];
+    const std::uint32_t id = result_.ids[rank];
+    std::uint32_t last = id;
+    for (const std::uint32_t u : tile.neighbours_of(v)) {
+      const std::uint32_t other = result_.ids[tile.ranks[u]];
+      if (other == id || other == last) continue;
+      last = other;
+      if (request_.adjacency) result_.adjacency.emplace_back(std::min(id, other), std::max(id, other));
+      if (request_.refine && planes_differ(result_.planes[id], result_.planes[other], request_.scale.voxel_steps))
+        result_.shared[rank >> 6] |= std::uint64_t{1} << (rank & 63);
+    }
   }
 
   const tiling::VoxelStore& store_;
