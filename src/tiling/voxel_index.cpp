@@ -48,7 +48,7 @@ void VoxelIndex::finish() {
   }
 }
 
-std::uint32_t VoxelIndex::find(const LatticePoint& block) const {
+std::uint32_t VoxelIndex::find_block(const LatticePoint& block) const {
   if (size_ == 0) return kNone;
   return slots_.at(slots_.find(voxel_hash(block), [&](std::uint32_t i) { return blocks_[i].key == block; }));
 }
@@ -78,7 +78,7 @@ void VoxelIndex::ranks_around(const LatticePoint& key, std::uint32_t& hint,
       for (int k = 0; k < axes[2].count; ++k) {
         const LatticePoint block{axes[0].blocks[i], axes[1].blocks[j], axes[2].blocks[k]};
         const bool hinted = hint < blocks_.size() && blocks_[hint].key == block;
-        const std::uint32_t found = hinted ? hint : find(block);
+        const std::uint32_t found = hinted ? hint : find_block(block);
         entries[4 * i + 2 * j + k] = found == kNone ? nullptr : &blocks_[found];
       }
     }

@@ -29,7 +29,7 @@ class VoxelIndex {
   std::uint32_t rank(const LatticePoint& key, std::uint32_t& hint) const {
     const LatticePoint block{key.x >> kLog2, key.y >> kLog2, key.z >> kLog2};
     if (hint >= blocks_.size() || !(blocks_[hint].key == block)) {
-      const std::uint32_t found = find(block);
+      const std::uint32_t found = find_block(block);
       if (found == kNone) return kNone;
       hint = found;
     }
@@ -55,6 +55,8 @@ class VoxelIndex {
   };
   std::size_t blocks() const { return blocks_.size(); }
   Block block(std::size_t i) const;  ///< In Z-order.
+  /// Index of the block with this key (voxel keys >> 3), kNone if it does not exist.
+  std::uint32_t find_block(const LatticePoint& block_key) const;
 
  private:
   static constexpr int kLog2 = 3;
@@ -89,7 +91,6 @@ class VoxelIndex {
     v = (v + (v >> 4)) & 0x0f0f0f0f0f0f0f0fU;
     return static_cast<std::uint32_t>(v * 0x0101010101010101U >> 56);
   }
-  std::uint32_t find(const LatticePoint& block) const;
 
   std::uint32_t size_ = 0;
   LatticeBox bounds_;

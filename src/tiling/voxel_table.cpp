@@ -55,10 +55,9 @@ struct VoxelTable::Batch {
   /// Positions become offsets in voxels.
   __attribute__((always_inline)) static void divide(const VoxelGrid& grid, std::array<std::uint32_t, kBatch>& offset,
                                                     std::array<std::int32_t, kBatch>& voxel) {
-    const auto side = static_cast<std::uint32_t>(grid.side_steps());
     for (std::size_t i = 0; i < kBatch; ++i) {
       voxel[i] = grid.voxel_of(static_cast<std::int32_t>(offset[i]));
-      offset[i] -= static_cast<std::uint32_t>(voxel[i]) * side;
+      offset[i] -= grid.low_corner(voxel[i]);
     }
   }
 #if ARRIS_AVX2_BATCHES

@@ -15,41 +15,43 @@ namespace {
 constexpr std::int32_t kMin = std::numeric_limits<std::int32_t>::min();
 constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
 
-std::int64_t floor_divided(std::int64_t position, std::int64_t side) {
-  return position / side - (position % side < 0 ? 1 : 0);
+/// floor((position + side / 2) / side) in integers.
+std::int64_t centred(std::int64_t position, std::int64_t side) {
+  const std::int64_t from_corner = position + side / 2;
+  return from_corner / side - (from_corner % side < 0 ? 1 : 0);
 }
 
-void expect_floor(std::int32_t side, std::int64_t position) {
+void expect_voxel(std::int32_t side, std::int64_t position) {
   if (position < kMin || position > kMax) return;
-  ASSERT_EQ(VoxelGrid(side).voxel_of(static_cast<std::int32_t>(position)), floor_divided(position, side))
+  ASSERT_EQ(VoxelGrid(side).voxel_of(static_cast<std::int32_t>(position)), centred(position, side))
       << position << " / " << side;
 }
 
-TEST(VoxelGrid, PositionsBesideEveryKindOfCorner_AreDividedDownwards) {
+TEST(VoxelGrid, PositionsBesideEveryKindOfCorner_AreInTheVoxelCentredThere) {
   for (std::int32_t side = 1; side <= kMostVoxelSide; side = side < 70 ? side + 1 : side + side / 7) {
     for (const std::int64_t around :
          {std::int64_t{kMin}, std::int64_t{kMin} / 2, std::int64_t{-side}, std::int64_t{0}, std::int64_t{side},
           std::int64_t{1} << 24, std::int64_t{kMax} / 3, std::int64_t{kMax}}) {
-      const std::int64_t corner = floor_divided(around, side) * side;
+      const std::int64_t corner = centred(around, side) * side - side / 2;
       for (std::int64_t step = -2; step <= 2; ++step) {
-        expect_floor(side, corner + step);
-        expect_floor(side, corner + side + step);
-        expect_floor(side, around + step);
+        expect_voxel(side, corner + step);
+        expect_voxel(side, corner + side + step);
+        expect_voxel(side, around + step);
       }
     }
   }
-  expect_floor(kMostVoxelSide, kMin);
-  expect_floor(kMostVoxelSide, kMax);
+  expect_voxel(kMostVoxelSide, kMin);
+  expect_voxel(kMostVoxelSide, kMax);
 }
 
-RC_GTEST_PROP(VoxelGrid, AnyPosition_IsDividedDownwards, (std::int32_t position)) {
+RC_GTEST_PROP(VoxelGrid, AnyPosition_IsInTheVoxelCentredThere, (std::int32_t position)) {
   const auto side =
       *rc::gen::oneOf(rc::gen::inRange<std::int32_t>(1, 100), rc::gen::inRange<std::int32_t>(1, kMostVoxelSide + 1));
   const auto anywhere = *rc::gen::inRange<std::int64_t>(kMin, std::int64_t{kMax} + 1);
   const VoxelGrid grid(side);
-  RC_ASSERT(grid.voxel_of(position) == floor_divided(position, side));
+  RC_ASSERT(grid.voxel_of(position) == centred(position, side));
   const auto far = static_cast<std::int32_t>(anywhere);
-  RC_ASSERT(grid.voxel_of(far) == floor_divided(far, side));
+  RC_ASSERT(grid.voxel_of(far) == centred(far, side));
   RC_ASSERT(grid.corner(grid.voxel_of(far)) <= far);
   RC_ASSERT(grid.corner(grid.voxel_of(far)) + side > far);
 }

@@ -1,0 +1,27 @@
+#pragma once
+/// @file What voxels are compared by.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/voxel_tile.h"
+#include "features/point_feature_histogram.h"
+#include "features/supervoxel_parameters.h"
+
+namespace arris {
+
+/// One entry per voxel of a tile; right for voxels whose feature rings are complete.
+struct VoxelFeatures {
+  std::vector<std::array<float, 3>> normals;
+  std::vector<std::array<float, 3>> colours;  ///< RGB in 0..255 (kNormal) or CIELab (kFpfh); empty without colours.
+  std::vector<FeatureHistogram> histograms;   ///< kFpfh only.
+};
+
+/// @param full_colour  raw channel value that stands for full intensity (255 or 65535).
+VoxelFeatures voxel_features(const VoxelTile& tile, const SupervoxelParameters& parameters, double full_colour);
+
+/// Bytes per voxel of a tile with its features, adjacency and growth state; for predictions.
+double supervoxel_bytes_per_voxel(SupervoxelParameters::Features features, bool colours);
+
+}  // namespace arris

@@ -1,0 +1,120 @@
+#include "tiling/voxel_neighbours.h"
+
+#include <array>
+
+#include "core/parallel.h"
+
+namespace arris::tiling {
+namespace {
+
+constexpr std::size_t kGrain = 64;  // Blocks.
+constexpr std::int32_t kSide = 8;   // Of a block.
+constexpr std::int32_t kCube = kSide + 2;
+constexpr std::size_t kNeighbours = 26;
+
+/// From a cell of the cube, in ascending (dx, dy, dz).
+constexpr std::array<int, kNeighbours> neighbour_offsets() {
+  std::array<int, kNeighbours> offsets{};
+  std::size_t i = 0;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        if (x != 0 || y != 0 || z != 0) offsets[i++] = (x * kCube + y) * kCube + z;
+      }
+    }
+  }
+  return offsets;
+}
+
+/// A block with one layer of voxels around it.
+class Cube {
+ public:
+  Cube(const VoxelTile& tile, const VoxelIndex& index) : tile_(tile), index_(index) { cells_.fill(VoxelIndex::kNone); }
+
+  void load(std::size_t block) {
+    for (const std::uint32_t cell : used_) cells_[cell] = VoxelIndex::kNone;
+    used_.clear();
+    const VoxelIndex::Block middle = index_.block(block);
+    corner_ = {middle.key.x * kSide, middle.key.y * kSide, middle.key.z * kSide};
+    add(middle);
+    for (std::int64_t x = -1; x <= 1; ++x) {
+      for (std::int64_t y = -1; y <= 1; ++y) {
+        for (std::int64_t z = -1; z <= 1; ++z) {
+          if (x == 0 && y == 0 && z == 0) continue;
+          // Keys of blocks have 29 bits, so their neighbours' fit.
+          const LatticePoint key{static_cast<std::int32_t>(middle.key.x + x),
+                                 static_cast<std::int32_t>(middle.key.y + y),
+                                 static_cast<std::int32_t>(middle.key.z + z)};
+          const std::uint32_t found = index_.find_block(key);
+          if (found != VoxelIndex::kNone) add(index_.block(found));
+        }
+      }
+    }
+  }
+
+  /// Calls use(neighbour) for the neighbours of a voxel of the block, in ascending (dx, dy, dz).
+  template <class Use>
+  void for_each_neighbour(std::size_t voxel, Use&& use) const {
+    const std::uint32_t* const middle = cells_.data() + cell_of(tile_.keys[voxel]);
+    for (const int offset : kOffsets) {
+      const std::uint32_t neighbour = middle[offset];
+      if (neighbour != VoxelIndex::kNone) use(neighbour);
+    }
+  }
+
+ private:
+  static constexpr std::array<int, kNeighbours> kOffsets = neighbour_offsets();
+
+  std::uint32_t cell_of(const LatticePoint& key) const {
+    return static_cast<std::uint32_t>(((key.x - corner_.x + 1) * kCube + key.y - corner_.y + 1) * kCube + key.z -
+                                      corner_.z + 1);
+  }
+
+  void add(const VoxelIndex::Block& block) {
+    for (std::uint32_t v = block.first_rank; v < block.first_rank + block.voxels; ++v) {
+      const LatticePoint& key = tile_.keys[v];
+      const auto inside = [](std::int64_t at, std::int64_t corner) { return at >= corner - 1 && at <= corner + kSide; };
+      if (!inside(key.x, corner_.x) || !inside(key.y, corner_.y) || !inside(key.z, corner_.z)) continue;
+      const std::uint32_t cell = cell_of(key);
+      cells_[cell] = v;
+      used_.push_back(cell);
+    }
+  }
+
+  const VoxelTile& tile_;
+  const VoxelIndex& index_;
+  LatticePoint corner_;
+  std::array<std::uint32_t, kCube * kCube * kCube> cells_;
+  std::vector<std::uint32_t> used_;
+};
+
+template <class Use>
+void for_each_voxel(const VoxelTile& tile, const VoxelIndex& index, Use&& use) {
+  parallel_for_chunks(index.blocks(), kGrain, [&](std::size_t begin, std::size_t end) {
+    Cube cube(tile, index);
+    for (std::size_t i = begin; i < end; ++i) {
+      cube.load(i);
+      const VoxelIndex::Block block = index.block(i);
+      for (std::size_t v = block.first_rank; v < block.first_rank + block.voxels; ++v) use(cube, v);
+    }
+  });
+}
+
+}  // namespace
+
+void link_neighbours(VoxelTile& tile, const VoxelIndex& index) {
+  tile.neighbour_begin.assign(tile.size() + 1, 0);
+  for_each_voxel(tile, index, [&](const Cube& cube, std::size_t v) {
+    std::uint32_t count = 0;
+    cube.for_each_neighbour(v, [&](std::uint32_t) { ++count; });
+    tile.neighbour_begin[v + 1] = count;
+  });
+  for (std::size_t v = 0; v < tile.size(); ++v) tile.neighbour_begin[v + 1] += tile.neighbour_begin[v];
+  tile.neighbours.resize(tile.neighbour_begin.back());
+  for_each_voxel(tile, index, [&](const Cube& cube, std::size_t v) {
+    std::uint32_t* to = tile.neighbours.data() + tile.neighbour_begin[v];
+    cube.for_each_neighbour(v, [&](std::uint32_t neighbour) { *to++ = neighbour; });
+  });
+}
+
+}  // namespace arris::tiling
