@@ -18,9 +18,10 @@
 namespace arris::tiling {
 namespace {
 
-constexpr std::size_t kWriteBytes = 64 * 1024;
-// Buffers for writing, a batch of points, and the rest.
-constexpr std::size_t kFixedBytes = 160 * 1024;
+// Large writes are cheaper, up to here.
+constexpr std::size_t kMostWriteBytes = 512 * 1024;
+// A batch of points, counters of the sort, and the rest.
+constexpr std::size_t kFixedBytes = 96 * 1024;
 // Runs merged at a time: few enough for the system's limit of open files.
 constexpr std::size_t kMostRuns = 128;
 constexpr std::size_t kLeastReadBytes = 64 * 1024;
@@ -69,11 +70,12 @@ struct VoxelAccumulator::Impl {
   Impl(const VoxelGrid& of, Options options)
       : grid(of),
         folder(std::move(options.folder)),
-        free_bytes(options.table_bytes - std::min(kFixedBytes, options.table_bytes / 2)),
+        write_bytes(std::min(options.table_bytes / 16, kMostWriteBytes)),
+        free_bytes(options.table_bytes - std::min(kFixedBytes + write_bytes, options.table_bytes / 2)),
         table(std::in_place, of, free_bytes) {}
 
   std::unique_ptr<VoxelRun> new_run(bool colours) {
-    return std::make_unique<VoxelRun>(folder / fmt::format("voxels-{}.run", runs_made++), colours, kWriteBytes);
+    return std::make_unique<VoxelRun>(folder / fmt::format("voxels-{}.run", runs_made++), colours, write_bytes);
   }
   void keep(std::unique_ptr<VoxelRun> run) {
     run->close();
@@ -126,7 +128,8 @@ struct VoxelAccumulator::Impl {
 
   VoxelGrid grid;
   std::filesystem::path folder;
-  std::size_t free_bytes;  // For the table, later for reading runs.
+  std::size_t write_bytes;  // For the buffer of the file being written.
+  std::size_t free_bytes;   // For the table, later for reading runs.
   std::optional<VoxelTable> table;
   std::vector<std::unique_ptr<VoxelRun>> runs;
   std::uint64_t runs_made = 0;
@@ -157,7 +160,7 @@ void VoxelAccumulator::add(std::span<const LatticePoint> positions, std::span<co
 
 VoxelStore VoxelAccumulator::finish() {
   Impl& impl = *impl_;
-  auto store = std::make_unique<VoxelStore::Impl>(impl.grid, impl.folder / "voxels.store");
+  auto store = std::make_unique<VoxelStore::Impl>(impl.grid, impl.folder / "voxels.store", impl.write_bytes);
   StoreFiller filler(store->file, store->index);
   if (impl.runs.empty()) {
     impl.table->drain([&](const VoxelRecord& record) { filler.add(record); });

@@ -16,8 +16,10 @@ namespace arris::tiling {
 /// voxels; finish() merges the runs. Sums are integers, so the voxels depend on the set of points only, not on their
 /// order, the size of the table or the number of runs.
 ///
-/// Memory: table_bytes, during add() as during finish(). Temporary disk: at most 80 bytes per entry of a run (as many
-/// as there are voxels when neighbours in the input are neighbours in space, as many as points at worst). Not
+/// Memory: table_bytes, during add() as during finish(), and the index of the store. 52 bytes per voxel in the table,
+/// 64 with colours. Temporary disk: 28 bytes (40 with colours) per entry of a run, twice that while many runs are
+/// merged in rounds, and 36 per voxel of the store; a run has as many entries as there are voxels when neighbours in
+/// the input are neighbours in space, as many as points at worst. One accumulator per folder at a time. Not
 /// thread-safe.
 class VoxelAccumulator {
  public:

@@ -16,16 +16,22 @@ std::uint64_t checksum(Hasher& hasher, std::span<const Voxel> voxels) {
   return hasher.digest();
 }
 
+std::span<const Voxel> chunk_at(std::span<const Voxel> voxels, std::size_t at) {
+  return voxels.subspan(at, std::min(VoxelFile::kChunkVoxels, voxels.size() - at));
+}
+
 }  // namespace
 
-VoxelFile::VoxelFile(std::filesystem::path path) : file_(std::move(path)) {
-  buffer_.reserve(kChunkVoxels);
+VoxelFile::VoxelFile(std::filesystem::path path, std::size_t buffer_bytes)
+    : file_(std::move(path)), buffer_voxels_(std::max<std::size_t>(buffer_bytes / kChunkBytes, 1) * kChunkVoxels) {
+  buffer_.reserve(buffer_voxels_);
 }
 
 void VoxelFile::flush() {
-  if (buffer_.empty()) return;
   Hasher hasher;
-  checksums_.push_back(checksum(hasher, buffer_));
+  for (std::size_t at = 0; at < buffer_.size(); at += kChunkVoxels) {
+    checksums_.push_back(checksum(hasher, chunk_at(std::span<const Voxel>(buffer_), at)));
+  }
   file_.append(std::as_bytes(std::span(buffer_)));
   buffer_.clear();
 }
@@ -45,9 +51,7 @@ void VoxelFile::read(std::size_t first, std::size_t count, std::vector<Voxel>& v
   file_.read_at(begin, std::as_writable_bytes(read));
   Hasher hasher;
   for (std::size_t chunk = 0; chunk < count; ++chunk) {
-    const std::size_t at = chunk * kChunkVoxels;
-    const auto part = read.subspan(at, std::min(kChunkVoxels, read.size() - at));
-    if (checksum(hasher, part) != checksums_[first + chunk]) file_.throw_damaged();
+    if (checksum(hasher, chunk_at(read, chunk * kChunkVoxels)) != checksums_[first + chunk]) file_.throw_damaged();
   }
 }
 

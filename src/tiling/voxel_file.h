@@ -18,9 +18,10 @@ class VoxelFile {
  public:
   static constexpr std::size_t kChunkVoxels = 1024;
 
-  explicit VoxelFile(std::filesystem::path path);
+  /// @param buffer_bytes  for writing; rounded to whole chunks, at least one.
+  VoxelFile(std::filesystem::path path, std::size_t buffer_bytes);
   void append(const Voxel& voxel) {
-    if (buffer_.size() == kChunkVoxels) flush();
+    if (buffer_.size() == buffer_voxels_) flush();
     buffer_.push_back(voxel);
   }
   /// Call after the last append().
@@ -35,6 +36,7 @@ class VoxelFile {
   void flush();
 
   ScratchFile file_;
+  std::size_t buffer_voxels_;
   std::vector<Voxel> buffer_;
   std::vector<std::uint64_t> checksums_;
 };

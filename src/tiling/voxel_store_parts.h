@@ -1,6 +1,7 @@
 #pragma once
 /// @file What a VoxelStore is made of; for the accumulator that makes it.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <utility>
@@ -11,7 +12,8 @@
 namespace arris::tiling {
 
 struct VoxelStore::Impl {
-  Impl(const VoxelGrid& of, std::filesystem::path path) : grid(of), file(std::move(path)) {}
+  Impl(const VoxelGrid& of, std::filesystem::path path, std::size_t buffer_bytes)
+      : grid(of), file(std::move(path), buffer_bytes) {}
 
   VoxelGrid grid;
   VoxelFile file;

@@ -15,6 +15,7 @@ namespace arris::tiling {
 namespace {
 
 constexpr std::size_t kBatch = 128;
+constexpr std::size_t kFirstSlots = std::size_t{1} << 16;
 constexpr std::size_t kGrowth = 8;
 constexpr std::uint32_t kFull = 0xffffffffU;
 
@@ -69,6 +70,7 @@ struct VoxelTable::Batch {
 VoxelTable::VoxelTable(const VoxelGrid& grid, std::size_t size_bytes) : grid_(grid), size_bytes_(size_bytes) {
   set_capacity();
   sums_ = PageArray<VoxelSums>(capacity_);
+  first_slots_ = std::min(kFirstSlots, kSlotsPerSum * (capacity_ + 1));
 }
 
 void VoxelTable::set_capacity() {
@@ -116,15 +118,16 @@ inline std::uint32_t VoxelTable::begin_sum(const LatticePoint& key) {
 
 /// Index of the sum to add to, kFull if there is none and no room.
 inline std::uint32_t VoxelTable::find_or_begin(const LatticePoint& key, std::uint32_t hash) {
-  if (size_ >= slots_full_at_) {
-    first_slots_ = std::min(kGrowth * slots_.size(), std::max(kSlotsPerSum * (capacity_ + 1), kFirstSlots));
-    rehash(first_slots_);
-  }
-  const std::size_t slot = find(key, hash);
+  std::size_t slot = find(key, hash);
   if (const std::uint32_t index = slots_.at(slot); index != HashSlots::kNone && sums_[index].points < most_points_) {
     return index;
   }
   if (size_ >= capacity_) return kFull;
+  if (size_ >= slots_full_at_) {
+    first_slots_ = std::min(kGrowth * slots_.size(), kSlotsPerSum * (capacity_ + 1));
+    rehash(first_slots_);
+    slot = find(key, hash);
+  }
   const std::uint32_t index = begin_sum(key);
   slots_.set(slot, hash, index);
   return index;

@@ -45,7 +45,6 @@ class VoxelTable {
   }
 
  private:
-  static constexpr std::size_t kFirstSlots = std::size_t{1} << 16;
   struct Batch;
   template <bool kColours>
   std::size_t add_batch(const Batch& batch, std::size_t count, const RawColour* colours);
@@ -64,10 +63,10 @@ class VoxelTable {
   bool has_colours_ = false;
   std::size_t size_ = 0;
   PageArray<VoxelSums> sums_;
-  PageArray<ColourSums> colours_;          // Beside sums_, if has_colours_.
-  HashSlots slots_;                        // To sums_.
-  std::size_t first_slots_ = kFirstSlots;  // As many as the table had last.
-  std::size_t slots_full_at_ = 0;          // Sums at which slots_ must grow.
+  PageArray<ColourSums> colours_;  // Beside sums_, if has_colours_.
+  HashSlots slots_;                // To sums_.
+  std::size_t first_slots_ = 0;    // As many as the table had last.
+  std::size_t slots_full_at_ = 0;  // Sums at which slots_ must grow.
 };
 
 }  // namespace arris::tiling

@@ -177,6 +177,20 @@ TEST(VoxelAccumulator, MillionsOfPointsInTheLargestVoxel_AreSummedExactly) {
   }
 }
 
+TEST(VoxelAccumulator, NearlyFullSumsInManyRuns_AreMergedExactly) {
+  // 60 runs, merged two by two, each with 3000 points of one voxel: two of them overflow 32 bits.
+  const test::TempFolder folder;
+  VoxelAccumulator accumulator(VoxelGrid(1 << 20), {folder.path(), 4096});
+  std::vector<LatticePoint> points;
+  for (std::int32_t round = 0; round < 60; ++round) {
+    points.insert(points.end(), 3000, {(1 << 20) - 1, (1 << 20) - 2, 5});
+    for (std::int32_t i = 1; i < 60; ++i) points.push_back({i << 20, 0, round});
+  }
+  const std::vector<RawColour> colours(points.size(), {65535, 1, 65535});
+  accumulator.add(points, colours);
+  EXPECT_EQ(all_voxels(accumulator.finish()), test::voxels_of(1 << 20, points, colours));
+}
+
 TEST(VoxelTotal, MoreThanTheMostPointsOfInt32_SaturateTheCountOnly) {
   VoxelTotal total({1, 2, 3});
   VoxelRecord record{{{1, 2, 3}, 4096, {4096U * 1048575U, 4096U * 3, 2048}}, {4096U * 65535U, 0, 2047}};
