@@ -73,7 +73,7 @@ void HealedRunner::run(std::span<const std::uint32_t> slots) {
   for (std::size_t begin = 0; begin < queries_.size();) {
     std::size_t end = begin + 1;
     while (end < queries_.size() && queries_[end].label == queries_[begin].label) ++end;
-    propose(std::span<const Query>(queries_).subspan(begin, end - begin), *group_.part(queries_[begin].label));
+    propose(std::span<const Query>(queries_).subspan(begin, end - begin), *group_.part(queries_[begin].label), box);
     begin = end;
   }
   ball_search_.run(
@@ -91,7 +91,7 @@ HealedRunner::Beside HealedRunner::beside(const LabelledPart& own, const Labelle
           angle_deg > kProposingShare * most_angle};
 }
 
-void HealedRunner::propose(std::span<const Query> run, const LabelledPart& own) {
+void HealedRunner::propose(std::span<const Query> run, const LabelledPart& own, const ClosedBox& box) {
   const ZhengParameters& parameters = task_.settings.parameters;
   const ZhengLengths lengths = task_.settings.lengths(task_.table, own.label);
   const SupervoxelFrame frame = supervoxel_frame(task_.table, own.label);
@@ -105,6 +105,7 @@ void HealedRunner::propose(std::span<const Query> run, const LabelledPart& own) 
     beside_.push_back(beside(own, other, lengths));
     if (frame.defined && beside_.back().continues) surface_.add(group_, other);
   }
+  if (frame.defined) surface_.expect(box);
   const bool thick = task_.table.thickness[own.label] > kThickSpacings * lengths.spacing;
   for (const Query& query : run) {
     const Vector3 at = group_.relative(task_.tree, query.slot);

@@ -43,7 +43,7 @@ class HealedRunner {
     bool bends;      ///< Perhaps at an angle.
   };
 
-  void propose(std::span<const Query> run, const LabelledPart& own);
+  void propose(std::span<const Query> run, const LabelledPart& own, const ClosedBox& box);
   Beside beside(const LabelledPart& own, const LabelledPart& other, const ZhengLengths& lengths) const;
   template <class T>
   void judge(const CandidateSet<T>& candidates, const BallQuery<T>& query, const Ball& ball);
