@@ -17,11 +17,14 @@ using test::SupervoxelShape;
 
 constexpr double kStep = 0.001;
 
-std::vector<ContourRecord> contours_of(const Scene& scene, const SupervoxelShape& shape, bool improved) {
+/// @param dense  the method is told a spacing so many times the scene's, and the supervoxels are as much larger.
+std::vector<ContourRecord> contours_of(const Scene& scene, SupervoxelShape shape, bool improved, double dense = 1.0) {
+  shape.cell *= dense;
+  shape.voxel *= dense;
   const TilePoints tile = test::tile_of(scene, kStep);
   const test::Supervoxels supervoxels = supervoxels_of(scene, tile, kStep, shape);
   ZhengParameters parameters;
-  parameters.spacing = scene.spacing;
+  parameters.spacing = dense * scene.spacing;
   parameters.improved = improved;
   return extract_zheng(tile, supervoxels.labels, supervoxels.table, {kStep, {0.0, 0.0, 0.0}}, parameters).records;
 }
@@ -76,6 +79,29 @@ TEST_P(ZhengQuality, Plates_ReachTheBar) {
   const Score all = score(scene, records, kFold | kBoundary, 2.0 * scene.spacing);
   record(all);
   EXPECT_GE(all.f1(), GetParam().least_plates) << "precision " << all.precision << " recall " << all.recall;
+}
+
+TEST(ZhengDensity, TwiceTheTypicalSpacing_IsAsGood) {
+  Sampling sampling;
+  sampling.noise = 0.1;
+  const Scene scene = test::block_scene(sampling);
+  SupervoxelShape shape;
+  shape.cell = 52.0;
+  shape.voxel = 4.0;
+  shape.whole_voxels = true;
+  const Score found = score(scene, contours_of(scene, shape, true, 0.5), kFold | kBoundary, 2.0 * scene.spacing);
+  EXPECT_GE(found.f1(), 0.95) << "precision " << found.precision << " recall " << found.recall;
+}
+
+TEST(ZhengDensity, QuarterOfTheTypicalSpacing_IsSeenInDetail) {
+  Sampling sampling;
+  sampling.noise = 0.1;
+  const Scene scene = test::block_scene(sampling);
+  SupervoxelShape shape;
+  shape.cell = 13.0;
+  shape.whole_voxels = true;
+  const Score found = score(scene, contours_of(scene, shape, true, 4.0), kFold | kBoundary, 2.0 * scene.spacing);
+  EXPECT_GE(found.f1(), 0.98) << "precision " << found.precision << " recall " << found.recall;
 }
 
 // Literally, seams on the cylinders are contacts: patches of 26 spacings differ by 50 degrees there.
