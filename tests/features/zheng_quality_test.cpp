@@ -104,6 +104,28 @@ TEST(ZhengDensity, QuarterOfTheTypicalSpacing_IsSeenInDetail) {
   EXPECT_GE(found.f1(), 0.98) << "precision " << found.precision << " recall " << found.recall;
 }
 
+/// Two half plates of 40 x 20 spacings, one `height` spacings above the other, and supervoxels of a quarter plate.
+TEST(ZhengStep, ParallelHalvesBesideEachOther_EndAtTheStep) {
+  for (const double height : {2.6, 3.0, 4.0}) {
+    Scene scene;
+    scene.spacing = 0.25;
+    for (int i = 0; i < 40; ++i) {
+      for (int j = 0; j < 40; ++j) {
+        const bool upper = i >= 20;
+        scene.points.push_back({0.25 * i, 0.25 * j, upper ? 0.25 * height : 0.0});
+        scene.faces.push_back(upper ? 2 + j / 20 : j / 20);
+        if (i == 19 || i == 20 || i == 0 || i == 39 || j == 0 || j == 39) scene.truth.push_back(scene.points.back());
+      }
+    }
+    SupervoxelShape shape;
+    shape.cell = 1000.0;
+    const auto records = contours_of(scene, shape, true);
+    const Score found = score(scene, records, kBoundary, 1e-6);
+    EXPECT_EQ(found.precision, 1.0) << height;
+    EXPECT_GE(found.recall, 0.97) << height;
+  }
+}
+
 // Literally, seams on the cylinders are contacts: patches of 26 spacings differ by 50 degrees there.
 INSTANTIATE_TEST_SUITE_P(Literal, ZhengQuality,
                          testing::Values(Case{false, false, Case::kGrid, 0.0, 0.90, 0.98},
