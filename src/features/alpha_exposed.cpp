@@ -68,10 +68,14 @@ struct AllBinsBlocked {
 
 }  // namespace
 
-double AlphaExposure::operator()(const PlaneNeighbours& neighbours) {
+bool AlphaExposure::surely_blocked(const PlaneNeighbours& neighbours) const {
   bool all = false;
   simd::dispatch<AllBinsBlocked>(neighbours, all);
-  return all ? 0.0 : without_rejection(neighbours);
+  return all;
+}
+
+double AlphaExposure::operator()(const PlaneNeighbours& neighbours) {
+  return surely_blocked(neighbours) ? 0.0 : without_rejection(neighbours);
 }
 
 double AlphaExposure::without_rejection(const PlaneNeighbours& neighbours) {

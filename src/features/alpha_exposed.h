@@ -29,7 +29,9 @@ class AlphaExposure {
   /// A straight border with spacing s shows 2 asin(s / (2 alpha)). Law: bits depend on the set of neighbours only.
   /// O(n) for most points inside, else O(n log n).
   double operator()(const PlaneNeighbours& neighbours);
-  /// The same without the early rejection: for tests, which require equality.
+  /// True only if the point is not exposed, whatever further neighbours there are; false says nothing.
+  bool surely_blocked(const PlaneNeighbours& neighbours) const;
+  /// The width without the early rejection: for tests, which require equality.
   double without_rejection(const PlaneNeighbours& neighbours);
 
  private:

@@ -17,6 +17,13 @@ constexpr double kStepThicknesses = 2.0;
 constexpr double kProposingShare = 0.4;
 /// A supervoxel that is thicker, spacings, than noise makes it may hold a fold within.
 constexpr double kThickSpacings = 0.4;
+/// Where points are denser than `spacing` says, smaller balls do: shares of the ball's radius, ascending.
+constexpr double kBallShares[] = {0.25, 0.5, 1.0};
+/// The share that is tried first is at least this many times the supervoxel's spacing over the length it counts with:
+/// the spacing of strings of points, and of supervoxels that hold a fold, is too small.
+constexpr double kShareMargin = 1.25;
+/// Balls of less than the full radius must hold this many points; a ball of 5 spacings holds 78 on a surface.
+constexpr double kEnoughMembers = 100.0;
 
 }  // namespace
 
@@ -68,16 +75,34 @@ void HealedRunner::run(std::span<const std::uint32_t> slots) {
     reach = std::max({reach, 2.0 * lengths.alpha, lengths.cap});
   }
   group_.gather(task_.tree, task_.labels, box, reach);
-  balls_.clear();
   proposals_.clear();
   for (std::size_t begin = 0; begin < queries_.size();) {
     std::size_t end = begin + 1;
     while (end < queries_.size() && queries_[end].label == queries_[begin].label) ++end;
-    propose(std::span<const Query>(queries_).subspan(begin, end - begin), *group_.part(queries_[begin].label));
+    propose(std::span<const Query>(queries_).subspan(begin, end - begin), *group_.part(queries_[begin].label), box);
     begin = end;
   }
-  ball_search_.run(
-      balls_, [this](const auto& candidates, const auto& query, const Ball& ball) { judge(candidates, query, ball); });
+  judge_all();
+}
+
+/// The smallest balls first; those that hold too few points are asked for again, twice as large.
+void HealedRunner::judge_all() {
+  for (const double share : kBallShares) {
+    balls_.clear();
+    double largest = 0.0;
+    for (std::uint32_t i = 0; i < proposals_.size(); ++i) {
+      Proposal& proposal = proposals_[i];
+      if (proposal.judged || share < proposal.least_share) continue;
+      proposal.share = share;
+      balls_.push_back({proposal.slot, kJudgedBall * share * proposal.spacing, i});
+      largest = std::max(largest, share * proposal.spacing);
+    }
+    if (balls_.empty()) continue;
+    wide_balls_.begin(balls_, std::min(kWideBall * largest, kLargestJudgedBall * task_.settings.typical.spacing));
+    ball_search_.run(balls_, [this](const auto& candidates, const auto& query, const Ball& ball) {
+      judge(candidates, query, ball);
+    });
+  }
 }
 
 HealedRunner::Beside HealedRunner::beside(const LabelledPart& own, const LabelledPart& other,
@@ -91,7 +116,7 @@ HealedRunner::Beside HealedRunner::beside(const LabelledPart& own, const Labelle
           angle_deg > kProposingShare * most_angle};
 }
 
-void HealedRunner::propose(std::span<const Query> run, const LabelledPart& own) {
+void HealedRunner::propose(std::span<const Query> run, const LabelledPart& own, const ClosedBox& box) {
   const ZhengParameters& parameters = task_.settings.parameters;
   const ZhengLengths lengths = task_.settings.lengths(task_.table, own.label);
   const SupervoxelFrame frame = supervoxel_frame(task_.table, own.label);
@@ -105,10 +130,16 @@ void HealedRunner::propose(std::span<const Query> run, const LabelledPart& own) 
     beside_.push_back(beside(own, other, lengths));
     if (frame.defined && beside_.back().continues) surface_.add(group_, other);
   }
+  if (frame.defined) surface_.expect(box);
   const bool thick = task_.table.thickness[own.label] > kThickSpacings * lengths.spacing;
+  const double least_share = std::min(kShareMargin * task_.table.spacing[own.label] / lengths.spacing, 1.0);
   for (const Query& query : run) {
     const Vector3 at = group_.relative(task_.tree, query.slot);
-    Proposal proposal{lengths.spacing, false, thick && parameters.fold, false};
+    Proposal proposal;
+    proposal.slot = query.slot;
+    proposal.spacing = lengths.spacing;
+    proposal.least_share = least_share;
+    proposal.bent = thick && parameters.fold;
     if (parameters.fold) {
       for (const Beside& b : beside_) {
         if (!b.bends || (proposal.bent && b.continues)) continue;
@@ -120,34 +151,35 @@ void HealedRunner::propose(std::span<const Query> run, const LabelledPart& own) 
     if (parameters.boundary) {
       proposal.border = !frame.defined || surface_.exposure_deg(at, lengths.alpha) > 0.0;
     }
-    if (!proposal.bent && !proposal.border) continue;
-    balls_.push_back({query.slot, kJudgedBall * lengths.spacing, static_cast<std::uint32_t>(proposals_.size())});
-    proposals_.push_back(proposal);
+    if (proposal.bent || proposal.border) proposals_.push_back(proposal);
   }
 }
 
 template <class T>
 void HealedRunner::judge(const CandidateSet<T>& candidates, const BallQuery<T>& query, const Ball& ball) {
-  const Proposal& proposal = proposals_[ball.query];
+  Proposal& proposal = proposals_[ball.query];
   const BallMoments moments = ball_moments(candidates, query);
+  if (proposal.share < 1.0 && moments.n < kEnoughMembers) return;  // The next larger ball will be asked for.
+  proposal.judged = true;
+  const double spacing = proposal.share * proposal.spacing;
   if (moments.n < kLeastBallMembers || moments.n > kMostBallPoints) return;
   SeamQuestion question;
   question.fold = proposal.bent;
   question.border = proposal.border;
   question.least_turn_deg = task_.settings.parameters.angle_deg;
-  question.rms = std::sqrt(std::max(eigenvalues_of(moments.covariance()).smallest, 0.0)) / proposal.spacing;
+  question.rms = std::sqrt(std::max(eigenvalues_of(moments.covariance()).smallest, 0.0)) / spacing;
   if (!question.border && question.rms < kFlatRms) return;
-  const double wide = std::min(kWideBall * proposal.spacing, kLargestJudgedBall * task_.settings.typical.spacing);
+  const double wide = std::min(kWideBall * spacing, kLargestJudgedBall * task_.settings.typical.spacing);
   question.radius[0] = kJudgedBall;
-  question.radius[1] = wide / proposal.spacing;
-  Balls balls(*this, ball, wide, proposal.spacing);
+  question.radius[1] = wide / spacing;
+  Balls balls(*this, ball, wide, spacing);
   balls.collect_first(candidates, query);
   const PointContour contour = judge_seam(question, balls, scratch_);
   if (contour.kind != PointContour::Kind::kNone) record(ball.slot, proposal, contour);
 }
 
 void HealedRunner::record(std::uint32_t slot, const Proposal& proposal, const PointContour& contour) {
-  const double unit = proposal.spacing * task_.settings.step;
+  const double unit = proposal.share * proposal.spacing * task_.settings.step;
   ContourRecord record;
   record.id = task_.tree.id(slot);
   record.score = static_cast<float>(contour.score);

@@ -33,8 +33,11 @@ class HealedRunner {
     std::uint32_t label, slot;
   };
   struct Proposal {
-    double spacing;  ///< Steps.
-    bool contact, bent, border;
+    std::uint32_t slot = 0;
+    double spacing = 0.0;      ///< That the supervoxel counts with, steps.
+    double least_share = 0.0;  ///< Smaller balls are not worth asking for.
+    double share = 1.0;        ///< Of the full ball, the one that is asked for now.
+    bool contact = false, bent = false, border = false, judged = false;
   };
   /// A supervoxel beside the one that is asked about.
   struct Beside {
@@ -43,8 +46,9 @@ class HealedRunner {
     bool bends;      ///< Perhaps at an angle.
   };
 
-  void propose(std::span<const Query> run, const LabelledPart& own);
+  void propose(std::span<const Query> run, const LabelledPart& own, const ClosedBox& box);
   Beside beside(const LabelledPart& own, const LabelledPart& other, const ZhengLengths& lengths) const;
+  void judge_all();
   template <class T>
   void judge(const CandidateSet<T>& candidates, const BallQuery<T>& query, const Ball& ball);
   void record(std::uint32_t slot, const Proposal& proposal, const PointContour& contour);

@@ -16,8 +16,8 @@ struct LabelledPart {
   std::size_t begin = 0, end = 0;
 };
 
-/// Points relative to an origin, as structure of arrays; parts in ascending order of labels, points without a
-/// supervoxel left out. Coordinates and their differences are exact.
+/// Points relative to an origin, the middle of the box that they were gathered around, as structure of arrays; parts in
+/// ascending order of labels, points without a supervoxel left out. Coordinates and their differences are exact.
 class LabelledGroup {
  public:
   /// All labelled points within `reach` steps of `box`, and some more.

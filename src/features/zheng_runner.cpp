@@ -36,7 +36,7 @@ void ZhengRunner::run(std::span<const std::uint32_t> slots) {
   const double reach = std::max({2.0 * lengths.alpha, lengths.seam, lengths.cap});
   group_.gather(task_.tree, task_.labels, box, reach);
   if (parameters.boundary) {
-    for_each_run([this](Run run, const LabelledPart& own) { test_borders(run, own); });
+    for_each_run([&](Run run, const LabelledPart& own) { test_borders(run, own, box); });
   }
   if (parameters.fold && any_may_touch()) {
     // A partner is within the cap, and what might be nearer to the partner within the cap of that.
@@ -55,12 +55,13 @@ void ZhengRunner::run(std::span<const std::uint32_t> slots) {
   }
 }
 
-void ZhengRunner::test_borders(Run run, const LabelledPart& own) {
+void ZhengRunner::test_borders(Run run, const LabelledPart& own, const ClosedBox& box) {
   const ZhengLengths& lengths = task_.settings.typical;
   const SupervoxelFrame frame = supervoxel_frame(task_.table, own.label);
   if (frame.defined) {
     surface_.begin(frame);
     surface_.add(group_, own);
+    surface_.expect(box);
   }
   for (Query& query : run) {
     const Vector3 at = group_.relative(task_.tree, query.slot);

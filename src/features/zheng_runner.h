@@ -30,7 +30,7 @@ class ZhengRunner {
   /// Queries of one supervoxel.
   using Run = std::span<Query>;
 
-  void test_borders(Run run, const LabelledPart& own);
+  void test_borders(Run run, const LabelledPart& own, const ClosedBox& box);
   bool near_neighbour(const LabelledPart& own, const Vector3& at, double distance) const;
   bool may_touch(const LabelledPart& own, const LabelledPart& other, double& angle_deg) const;
   bool any_may_touch();

@@ -59,7 +59,7 @@ Cloud any_cloud(std::size_t points) {
   cloud.table = test::table_of(cloud.tile.positions, made.labels, voxel);
   for (std::size_t i = 0; i < made.labels.size(); ++i) cloud.label_of[cloud.tile.ids[i]] = made.labels[i];
   ZhengParameters& p = cloud.parameters;
-  p.spacing = 0.001 * spacing;
+  p.spacing = 0.001 * spacing * *rc::gen::element(1.0, 1.0, 0.3, 4.0);
   p.angle_deg = *rc::gen::element(5.0, 25.0, 60.0);
   p.contact_factor = *rc::gen::element(1.0, 3.0);
   p.alpha_factor = *rc::gen::element(0.8, 2.0, 4.0);

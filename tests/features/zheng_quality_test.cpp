@@ -17,11 +17,14 @@ using test::SupervoxelShape;
 
 constexpr double kStep = 0.001;
 
-std::vector<ContourRecord> contours_of(const Scene& scene, const SupervoxelShape& shape, bool improved) {
+/// @param dense  the method is told a spacing so many times the scene's, and the supervoxels are as much larger.
+std::vector<ContourRecord> contours_of(const Scene& scene, SupervoxelShape shape, bool improved, double dense = 1.0) {
+  shape.cell *= dense;
+  shape.voxel *= dense;
   const TilePoints tile = test::tile_of(scene, kStep);
   const test::Supervoxels supervoxels = supervoxels_of(scene, tile, kStep, shape);
   ZhengParameters parameters;
-  parameters.spacing = scene.spacing;
+  parameters.spacing = dense * scene.spacing;
   parameters.improved = improved;
   return extract_zheng(tile, supervoxels.labels, supervoxels.table, {kStep, {0.0, 0.0, 0.0}}, parameters).records;
 }
@@ -76,6 +79,51 @@ TEST_P(ZhengQuality, Plates_ReachTheBar) {
   const Score all = score(scene, records, kFold | kBoundary, 2.0 * scene.spacing);
   record(all);
   EXPECT_GE(all.f1(), GetParam().least_plates) << "precision " << all.precision << " recall " << all.recall;
+}
+
+TEST(ZhengDensity, TwiceTheTypicalSpacing_IsAsGood) {
+  Sampling sampling;
+  sampling.noise = 0.1;
+  const Scene scene = test::block_scene(sampling);
+  SupervoxelShape shape;
+  shape.cell = 52.0;
+  shape.voxel = 4.0;
+  shape.whole_voxels = true;
+  const Score found = score(scene, contours_of(scene, shape, true, 0.5), kFold | kBoundary, 2.0 * scene.spacing);
+  EXPECT_GE(found.f1(), 0.95) << "precision " << found.precision << " recall " << found.recall;
+}
+
+TEST(ZhengDensity, QuarterOfTheTypicalSpacing_IsSeenInDetail) {
+  Sampling sampling;
+  sampling.noise = 0.1;
+  const Scene scene = test::block_scene(sampling);
+  SupervoxelShape shape;
+  shape.cell = 13.0;
+  shape.whole_voxels = true;
+  const Score found = score(scene, contours_of(scene, shape, true, 4.0), kFold | kBoundary, 2.0 * scene.spacing);
+  EXPECT_GE(found.f1(), 0.98) << "precision " << found.precision << " recall " << found.recall;
+}
+
+/// Two half plates of 40 x 20 spacings, one `height` spacings above the other, and supervoxels of a quarter plate.
+TEST(ZhengStep, ParallelHalvesBesideEachOther_EndAtTheStep) {
+  for (const double height : {2.6, 3.0, 4.0}) {
+    Scene scene;
+    scene.spacing = 0.25;
+    for (int i = 0; i < 40; ++i) {
+      for (int j = 0; j < 40; ++j) {
+        const bool upper = i >= 20;
+        scene.points.push_back({0.25 * i, 0.25 * j, upper ? 0.25 * height : 0.0});
+        scene.faces.push_back(upper ? 2 + j / 20 : j / 20);
+        if (i == 19 || i == 20 || i == 0 || i == 39 || j == 0 || j == 39) scene.truth.push_back(scene.points.back());
+      }
+    }
+    SupervoxelShape shape;
+    shape.cell = 1000.0;
+    const auto records = contours_of(scene, shape, true);
+    const Score found = score(scene, records, kBoundary, 1e-6);
+    EXPECT_EQ(found.precision, 1.0) << height;
+    EXPECT_GE(found.recall, 0.97) << height;
+  }
 }
 
 // Literally, seams on the cylinders are contacts: patches of 26 spacings differ by 50 degrees there.
