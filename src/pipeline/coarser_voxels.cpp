@@ -1,6 +1,7 @@
 #include "pipeline/coarser_voxels.h"
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "features/clusters.h"
@@ -45,7 +46,10 @@ tiling::VoxelStore coarser_voxels(const tiling::VoxelStore& store, const tiling:
                                   std::span<const std::uint32_t> clusters_of, bool colours,
                                   const std::filesystem::path& folder, std::size_t table_bytes,
                                   const CancelToken& cancel) {
-  tiling::VoxelAccumulator accumulator(VoxelGrid(2 * store.grid().side_steps()), {folder, table_bytes});
+  const std::int32_t side_steps = 2 * store.grid().side_steps();
+  const std::filesystem::path own_folder = folder / ("voxels-" + std::to_string(side_steps));
+  std::filesystem::create_directory(own_folder);
+  tiling::VoxelAccumulator accumulator(VoxelGrid(side_steps), {own_folder, table_bytes});
   std::vector<LatticePoint> points;
   std::vector<RawColour> point_colours;
   for_each_core(store, tiles, cancel, [&](const std::vector<Voxel>& voxels, const std::vector<std::uint32_t>& ranks) {
