@@ -15,7 +15,11 @@ constexpr std::uint64_t kFree = ~std::uint64_t{0};
 
 /// Distances are not negative, so their bits sort as they do: the smaller offer is the smaller number.
 std::uint64_t offer(float distance, std::uint32_t cluster) {
-  return std::uint64_t{std::bit_cast<std::uint32_t>(distance)} << 32 | cluster;
+  return (std::uint64_t{std::bit_cast<std::uint32_t>(distance)} + 1) << 32 | cluster;
+}
+/// Below all offers: nothing takes a seed's own voxel, also where distances are 0.
+std::uint64_t seed_state(std::uint32_t cluster) {
+  return cluster;
 }
 std::uint32_t cluster_of(std::uint64_t state) {
   return static_cast<std::uint32_t>(state);
@@ -29,7 +33,7 @@ class Growth {
 
   void seed(std::span<const TileSeed> seeds) {
     for (const TileSeed& s : seeds) {
-      state_[s.voxel] = offer(0.0F, s.cluster);
+      state_[s.voxel] = seed_state(s.cluster);
       frontier_.push_back(s);
     }
   }

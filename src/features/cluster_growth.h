@@ -20,7 +20,7 @@ struct TileSeed {
 
 /// The cluster of each voxel of the tile after `scale.levels` levels, kNoCluster where none came. At every level each
 /// cluster offers the voxels around those it won at the level before its distance D to them; a voxel goes to the
-/// smallest (D, cluster) that it was ever offered. Seeds start with D = 0. Centres do not move meanwhile.
+/// smallest (D, cluster) that it was ever offered. A seed's voxel stays with it. Centres do not move meanwhile.
 ///
 /// Laws: (1) the result depends on voxels, seeds and centres only: offers are collected by an atomic minimum, which no
 /// order of threads can change; (2) the cluster of a voxel depends on nothing that lies more than scale.levels voxels

@@ -18,7 +18,15 @@ inline std::int64_t floor_divided(std::int64_t a, std::int64_t b) {
   return a / b - (a % b < 0 ? 1 : 0);
 }
 
-/// Voxels of the points, centred on multiples of the side, in Z-order. Colours: as many as points or none.
+/// The voxel, centred on a multiple of `side`, that holds a position; and its lowest position.
+inline std::int64_t centred_voxel(std::int64_t position, std::int64_t side) {
+  return floor_divided(position + side / 2, side);
+}
+inline std::int64_t voxel_corner(std::int64_t voxel, std::int64_t side) {
+  return voxel * side - side / 2;
+}
+
+/// Voxels of the points in Z-order. Colours: as many as points or none.
 inline std::vector<Voxel> voxels_of(std::int32_t side, std::span<const LatticePoint> points,
                                     std::span<const RawColour> colours) {
   struct Sums {
@@ -27,13 +35,11 @@ inline std::vector<Voxel> voxels_of(std::int32_t side, std::span<const LatticePo
   std::map<LatticePoint, Sums> sums;
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::int32_t key[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      key[axis] = static_cast<std::int32_t>(floor_divided(std::int64_t{points[i][axis]} + side / 2, side));
-    }
+    for (int axis = 0; axis < 3; ++axis) key[axis] = static_cast<std::int32_t>(centred_voxel(points[i][axis], side));
     Sums& sum = sums[{key[0], key[1], key[2]}];
     ++sum.points;
     for (int axis = 0; axis < 3; ++axis) {
-      sum.offset[axis] += points[i][axis] - (std::int64_t{key[axis]} * side - side / 2);
+      sum.offset[axis] += points[i][axis] - voxel_corner(key[axis], side);
       if (!colours.empty()) sum.colour[axis] += colours[i][static_cast<std::size_t>(axis)];
     }
   }
