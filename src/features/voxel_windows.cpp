@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "features/symmetric_eigen3.h"
+#include "features/least_direction.h"
 
 namespace arris {
 namespace {
@@ -58,24 +58,50 @@ void add_shifted(Moments& to, const Moments& m, const std::array<float, 3>& shif
   to.square[5] += m.square[5] + 2.0F * sz * z + m.n * z * z;
 }
 
-WindowPlane plane_of(const Moments& m) {
-  const double inverse = 1.0 / m.n;
-  const double x = m.sum[0] * inverse;
-  const double y = m.sum[1] * inverse;
-  const double z = m.sum[2] * inverse;
-  const SymmetricMatrix<double> covariance{m.square[0] * inverse - x * x, m.square[1] * inverse - x * y,
-                                           m.square[2] * inverse - x * z, m.square[3] * inverse - y * y,
-                                           m.square[4] * inverse - y * z, m.square[5] * inverse - z * z};
-  const Eigenvalues<double> values = eigenvalues_of(covariance);
-  WindowPlane plane;
-  if (!(values.middle > kLeastWidth * values.largest) || !(values.largest > 0.0)) return plane;
-  Vector3 e = kernel_vector(covariance, values.smallest);
-  if (e[0] * kGeneric[0] + e[1] * kGeneric[1] + e[2] * kGeneric[2] < 0.0) e = {-e[0], -e[1], -e[2]};
-  plane.normal = {static_cast<float>(e[0]), static_cast<float>(e[1]), static_cast<float>(e[2])};
-  plane.offset = static_cast<float>(e[0] * x + e[1] * y + e[2] * z);
-  plane.misfit = static_cast<float>(std::max(values.smallest, 0.0));
-  return plane;
-}
+/// Planes of several windows at once.
+class PlaneBatch {
+ public:
+  explicit PlaneBatch(float penalty) : penalty_(penalty) {}
+
+  /// @param to  gets the plane at the next flush().
+  void add(const Moments& m, WindowPlane& to) {
+    const double inverse = 1.0 / m.n;
+    const double x = m.sum[0] * inverse;
+    const double y = m.sum[1] * inverse;
+    const double z = m.sum[2] * inverse;
+    mean_[count_] = {x, y, z};
+    fits_.set(count_, {m.square[0] * inverse - x * x, m.square[1] * inverse - x * y, m.square[2] * inverse - x * z,
+                       m.square[3] * inverse - y * y, m.square[4] * inverse - y * z, m.square[5] * inverse - z * z});
+    to_[count_] = &to;
+    if (++count_ == LeastDirections::kCount) flush();
+  }
+
+  void flush() {
+    if (count_ == 0) return;
+    fits_.solve();
+    for (std::size_t i = 0; i < count_; ++i) *to_[i] = plane(i);
+    count_ = 0;
+  }
+
+ private:
+  WindowPlane plane(std::size_t i) const {
+    const Eigenvalues<double> values = fits_.values(i);
+    WindowPlane plane;
+    if (!(values.middle > kLeastWidth * values.largest) || !(values.largest > 0.0)) return plane;
+    Vector3 e = fits_.direction(i);
+    if (e[0] * kGeneric[0] + e[1] * kGeneric[1] + e[2] * kGeneric[2] < 0.0) e = {-e[0], -e[1], -e[2]};
+    plane.normal = {static_cast<float>(e[0]), static_cast<float>(e[1]), static_cast<float>(e[2])};
+    plane.offset = static_cast<float>(e[0] * mean_[i][0] + e[1] * mean_[i][1] + e[2] * mean_[i][2]);
+    plane.misfit = penalty_ * static_cast<float>(std::max(values.smallest, 0.0));
+    return plane;
+  }
+
+  float penalty_;
+  std::size_t count_ = 0;
+  LeastDirections fits_;
+  std::array<Vector3, LeastDirections::kCount> mean_;
+  std::array<WindowPlane*, LeastDirections::kCount> to_;
+};
 
 }  // namespace
 
@@ -87,17 +113,26 @@ std::vector<WindowPlane> window_planes(const VoxelTile& tile) {
     // memory for all.
     std::vector<Moments> own(end - begin);
     for (std::size_t v = begin; v < end; ++v) own[v - begin] = ring_moments(tile, v, per_side);
+    PlaneBatch wide(1.0F);
     for (std::size_t v = begin; v < end; ++v) {
       Moments m = own[v - begin];
       for (const std::uint32_t u : tile.neighbours_of(v)) {
         const std::array<float, 3> shift = centroid_offset(tile.positions[v], tile.positions[u], per_side);
         add_shifted(m, u >= begin && u < end ? own[u - begin] : ring_moments(tile, u, per_side), shift);
       }
-      planes[v] = plane_of(m);
-      if (planes[v].misfit <= kFlatMisfit) continue;
-      WindowPlane narrow = plane_of(own[v - begin]);
-      narrow.misfit *= kNarrowPenalty;
-      if (narrow.misfit < planes[v].misfit) planes[v] = narrow;
+      wide.add(m, planes[v]);
+    }
+    wide.flush();
+    std::vector<std::uint32_t> uneven;
+    for (std::size_t v = begin; v < end; ++v) {
+      if (planes[v].misfit > kFlatMisfit) uneven.push_back(static_cast<std::uint32_t>(v));
+    }
+    std::vector<WindowPlane> narrow(uneven.size());
+    PlaneBatch one_ring(kNarrowPenalty);
+    for (std::size_t i = 0; i < uneven.size(); ++i) one_ring.add(own[uneven[i] - begin], narrow[i]);
+    one_ring.flush();
+    for (std::size_t i = 0; i < uneven.size(); ++i) {
+      if (narrow[i].misfit < planes[uneven[i]].misfit) planes[uneven[i]] = narrow[i];
     }
   });
   return planes;

@@ -46,7 +46,7 @@ class Cube {
           const LatticePoint key{static_cast<std::int32_t>(middle.key.x + x),
                                  static_cast<std::int32_t>(middle.key.y + y),
                                  static_cast<std::int32_t>(middle.key.z + z)};
-          const std::uint32_t found = index_.find_block(key);
+          const std::uint32_t found = find(key);
           if (found != VoxelIndex::kNone) add(index_.block(found));
         }
       }
@@ -82,8 +82,22 @@ class Cube {
     }
   }
 
+  /// Blocks come in Z-order: most of those around one were around the one before.
+  std::uint32_t find(const LatticePoint& block) {
+    Found& slot = recent_[static_cast<std::size_t>((block.x & 15) | (block.y & 15) << 4 | (block.z & 7) << 8)];
+    if (!slot.known || slot.key != block) slot = {block, index_.find_block(block), true};
+    return slot.index;
+  }
+
+  struct Found {
+    LatticePoint key;
+    std::uint32_t index = 0;
+    bool known = false;
+  };
+
   const VoxelTile& tile_;
   const VoxelIndex& index_;
+  std::vector<Found> recent_ = std::vector<Found>(2048);
   LatticePoint corner_;
   std::array<std::uint32_t, kCube * kCube * kCube> cells_;
   std::vector<std::uint32_t> used_;
