@@ -68,7 +68,7 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   const RunFolder folder(request.temp_dir);
   const SupervoxelScene scene =
       make_supervoxel_scene(inputs, survey,
-                            {report.parameters, scale, request.memory_bytes, request.tile_points_cap,
+                            {report.parameters, scale, request.memory_bytes, request.tile_points_cap, request.threads,
                              !request.adjacency.empty(), folder.path()},
                             sink, cancel);
   const SupervoxelStageResult& clusters = scene.clusters;
