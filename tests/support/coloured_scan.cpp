@@ -22,11 +22,13 @@ void write_coloured_las(const std::filesystem::path& path, const std::vector<Col
   write_las(path, positions);
   const LasView plain = view_las(path);
   constexpr std::uint16_t kRecordBytes = 26;
+  constexpr char kFirstOfOne = 1 | 1 << 3;  // Return, as the header counts them.
   std::string bytes = plain.bytes.substr(0, plain.offset_to_points);
   bytes[104] = 2;
   std::memcpy(bytes.data() + 105, &kRecordBytes, sizeof kRecordBytes);
   for (std::size_t i = 0; i < points.size(); ++i) {
     bytes.append(plain.record(i), plain.record_bytes);
+    bytes[bytes.size() - plain.record_bytes + 14] = kFirstOfOne;
     for (const double channel : points[i].colour) append(bytes, static_cast<std::uint16_t>(channel));
   }
   write_bytes(path, bytes);
