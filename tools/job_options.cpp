@@ -132,6 +132,8 @@ void refuse_foreign_options(const std::string& method, const CLI::App& verb) {
       throw ConfigError(option->get_name() + " belongs to another method than " + method + "; see --method");
     }
   }
+  if (method == "zheng" && verb.count("--max-radius") > 0)
+    throw ConfigError("--max-radius has no effect on method zheng; see --contact-cap and --alpha-radius");
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ std::int32_t SupervoxelScale::halo_voxels() const {
 
 SupervoxelScale resolve_scale(SupervoxelParameters& p, double spacing, const Lattice& lattice) {
   validate(p);
-  if (p.voxel == 0.0) p.voxel = std::max(kVoxelSpacings * spacing, lattice.step);
+  if (p.voxel == 0.0) p.voxel = std::clamp(kVoxelSpacings * spacing, lattice.step, kMostVoxelSide * lattice.step);
   if (p.seed == 0.0) p.seed = kSeedVoxels * p.voxel;
   const double voxel_steps = std::round(p.voxel / lattice.step);
   if (!(voxel_steps >= 1.0 && voxel_steps <= kMostVoxelSide)) {

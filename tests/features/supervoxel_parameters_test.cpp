@@ -51,6 +51,11 @@ TEST(SupervoxelParameters, NoSpacing_IsOneStepPerVoxel) {
   EXPECT_EQ(resolve_scale(p, 0.0, kMillimetres).voxel_steps, 1);
 }
 
+TEST(SupervoxelParameters, FewPointsFarApart_AreTheLargestVoxels) {
+  SupervoxelParameters p;
+  EXPECT_EQ(resolve_scale(p, 4e6, kMillimetres).voxel_steps, kMostVoxelSide);
+}
+
 TEST(SupervoxelParameters, EdgesOfTheRanges_AreAccepted) {
   SupervoxelParameters p;
   p.voxel = kMostVoxelSide * 0.001;
