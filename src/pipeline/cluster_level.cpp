@@ -32,7 +32,7 @@ class Clustering {
     kept_bytes += sizeof(std::uint32_t) * std::uint64_t{voxels};
     const std::uint64_t likely = likely_clusters() * cluster_bytes();
     walk_.plan(kept_bytes + likely);
-    find_all_seeds();
+    find_all_seeds(kept_bytes);
     if (table_.memory_bytes() > likely) walk_.plan(kept_bytes + table_.memory_bytes());
     for (int iteration = 1; iteration < parameters_.iterations; ++iteration) {
       grow(false);
@@ -57,10 +57,15 @@ class Clustering {
     return static_cast<std::uint64_t>(2.0 * walk_.store().size() / (cells * cells)) + 1000;
   }
 
-  void find_all_seeds() {
+  void find_all_seeds(std::uint64_t kept_bytes) {
     progress_.phase("seeds", walk_.store().size());
+    std::uint64_t seeds = 0;
     walk_.for_each(true, [&](const LoadedTile& tile) {
-      table_.add_seeds(tile.voxels, tile.features, find_seeds(tile.voxels, scale_));
+      const std::vector<Seed> found = find_seeds(tile.voxels, scale_);
+      seeds += found.size();
+      // Before they take the memory, not after.
+      walk_.require(kept_bytes + seeds * cluster_bytes());
+      table_.add_seeds(tile.voxels, tile.features, found);
     });
     table_.fix_seeds();
   }

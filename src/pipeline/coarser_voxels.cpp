@@ -10,6 +10,9 @@
 namespace arris::pipeline {
 namespace {
 
+constexpr std::uint64_t kLeastTableBytes = 1024 * 1024;
+constexpr std::uint64_t kMostTableBytes = 64 * 1024 * 1024;
+
 /// The lattice point that the centroid of a voxel lies on or just above.
 LatticePoint centroid_point(const VoxelGrid& grid, const Voxel& voxel) {
   const auto along = [&](int axis) {
@@ -44,12 +47,14 @@ SupervoxelScale coarser(const SupervoxelScale& scale, const SupervoxelParameters
 
 tiling::VoxelStore coarser_voxels(const tiling::VoxelStore& store, const tiling::TilePlan& tiles,
                                   std::span<const std::uint32_t> clusters_of, bool colours,
-                                  const std::filesystem::path& folder, std::size_t table_bytes,
+                                  const std::filesystem::path& folder, std::uint64_t memory_bytes,
                                   const CancelToken& cancel) {
   const std::int32_t side_steps = 2 * store.grid().side_steps();
   const std::filesystem::path own_folder = folder / ("voxels-" + std::to_string(side_steps));
   std::filesystem::create_directory(own_folder);
-  tiling::VoxelAccumulator accumulator(VoxelGrid(side_steps), {own_folder, table_bytes});
+  const std::uint64_t table_bytes = std::clamp(memory_bytes / 4, kLeastTableBytes, kMostTableBytes);
+  const std::uint64_t index_bytes = memory_bytes > table_bytes ? memory_bytes - table_bytes : 0;
+  tiling::VoxelAccumulator accumulator(VoxelGrid(side_steps), {own_folder, table_bytes, index_bytes});
   std::vector<LatticePoint> points;
   std::vector<RawColour> point_colours;
   for_each_core(store, tiles, cancel, [&](const std::vector<Voxel>& voxels, const std::vector<std::uint32_t>& ranks) {

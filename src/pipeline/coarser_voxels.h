@@ -18,10 +18,11 @@ bool can_coarsen(const SupervoxelScale& scale);
 SupervoxelScale coarser(const SupervoxelScale& scale, const SupervoxelParameters& parameters);
 
 /// Voxels of twice the side from the centroids of those voxels of `store` that have no cluster, each counted once.
-/// @param tiles  cut the store into parts that fit into memory; only their cores are read.
+/// @param tiles         cut the store into parts that fit into memory; only their cores are read.
+/// @param memory_bytes  for the table and the index of the new voxels. Throws BudgetError if it does not do.
 tiling::VoxelStore coarser_voxels(const tiling::VoxelStore& store, const tiling::TilePlan& tiles,
                                   std::span<const std::uint32_t> clusters_of, bool colours,
-                                  const std::filesystem::path& folder, std::size_t table_bytes,
+                                  const std::filesystem::path& folder, std::uint64_t memory_bytes,
                                   const CancelToken& cancel);
 
 /// Gives each voxel without cluster that of the coarser voxel that holds its centroid, plus `first`.

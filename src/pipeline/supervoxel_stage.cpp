@@ -19,13 +19,15 @@ ClusterLevel cluster_all(VoxelTileWalk& walk, const SupervoxelStageRequest& requ
   if (coarsest || std::find(level.clusters_of.begin(), level.clusters_of.end(), kNoCluster) == level.clusters_of.end())
     return level;
   walk.drop();
+  // Half of what is left: the other half is for reading these voxels.
+  const std::uint64_t here_bytes = kept_bytes + sizeof(std::uint32_t) * level.clusters_of.size();
+  const std::uint64_t left_bytes = here.memory_bytes > here_bytes ? here.memory_bytes - here_bytes : 0;
   const tiling::VoxelStore coarse = coarser_voxels(walk.store(), walk.tiles(), level.clusters_of, here.colours,
-                                                   request.folder, request.table_bytes, cancel);
+                                                   request.folder, left_bytes / 2, cancel);
   TileWalkRequest there = here;
   there.scale = coarser(here.scale, here.parameters);
   VoxelTileWalk coarse_walk(coarse, there, progress, cancel);
-  const std::uint64_t kept =
-      kept_bytes + sizeof(std::uint32_t) * level.clusters_of.size() + coarse.index().memory_bytes();
+  const std::uint64_t kept = here_bytes + coarse.index().memory_bytes();
   const ClusterLevel coarse_level = cluster_all(coarse_walk, request, kept, progress, cancel);
   inherit_clusters(walk.store(), walk.tiles(), coarse, coarse_level.clusters_of, level.count, level.clusters_of,
                    cancel);

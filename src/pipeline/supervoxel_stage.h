@@ -19,7 +19,6 @@ struct SupervoxelStageRequest {
   TileWalkRequest walk;
   bool adjacency = false;        ///< Collect the pairs of neighbours.
   std::filesystem::path folder;  ///< For coarser voxels.
-  std::size_t table_bytes = 0;   ///< Of the table that makes them, >= 1 MiB.
 };
 
 struct SupervoxelStageResult {

@@ -45,6 +45,7 @@ VoxelMemory::VoxelMemory(std::uint64_t budget_bytes)
         human_bytes(static_cast<std::uint64_t>(static_cast<double>(fixed + kLeastTableBytes) / kSafety) + kMiB)));
   }
   table_bytes_ = std::clamp((usable_bytes_ - fixed) / 2, kLeastTableBytes, kMostTableBytes);
+  index_bytes_ = usable_bytes_ - fixed - table_bytes_;
 }
 
 std::uint64_t VoxelMemory::stage_bytes() const {

@@ -22,7 +22,7 @@ struct MappedBatch {
 
 VoxelStageResult run_voxel_stage(io::InputSet& inputs, const tiling::Survey& survey, const SupervoxelScale& scale,
                                  SupervoxelParameters::Colour colour, const std::filesystem::path& folder,
-                                 std::size_t table_bytes, int threads, ProgressSink& progress,
+                                 const VoxelMemory& memory, int threads, ProgressSink& progress,
                                  const CancelToken& cancel) {
   std::unique_ptr<ColourSource> colours;
   if (colour != SupervoxelParameters::Colour::kOff) colours = ColourSource::open(inputs, cancel);
@@ -31,7 +31,8 @@ VoxelStageResult run_voxel_stage(io::InputSet& inputs, const tiling::Survey& sur
 
   progress.phase("voxels", inputs.points());
   const tiling::LatticeMapper mapper(inputs.sources(), survey.lattice);
-  tiling::VoxelAccumulator accumulator(VoxelGrid(scale.voxel_steps), {folder, table_bytes});
+  tiling::VoxelAccumulator accumulator(VoxelGrid(scale.voxel_steps),
+                                       {folder, memory.table_bytes(), memory.index_bytes()});
   io::ReadOptions options;
   options.records = colours != nullptr;
   io::PointBatch batch;

@@ -42,12 +42,15 @@ void VoxelTileWalk::plan(std::uint64_t kept_bytes) {
   plan_ = tiling::plan_voxel_tiles(store_.index(), tiles);
   loaded_.reset();
   predicted_bytes_ = kept_bytes + static_cast<std::uint64_t>(each * static_cast<double>(largest_tile_voxels()));
-  if (predicted_bytes_ > request_.memory_bytes) {
-    throw BudgetError(
-        fmt::format("{} voxels and their supervoxels need {} more memory than --memory leaves; raise it by so much, or "
-                    "choose larger --voxel or smaller --seed",
-                    grouped(store_.size()), human_bytes(predicted_bytes_ - request_.memory_bytes)));
-  }
+  require(predicted_bytes_);
+}
+
+void VoxelTileWalk::require(std::uint64_t bytes) const {
+  if (bytes <= request_.memory_bytes) return;
+  throw BudgetError(fmt::format(
+      "{} voxels and their supervoxels need {} more memory than --memory leaves; raise it by at least so much, "
+      "or choose larger --voxel or --seed",
+      grouped(store_.size()), human_bytes(bytes - request_.memory_bytes)));
 }
 
 std::uint64_t VoxelTileWalk::largest_tile_voxels() const {
