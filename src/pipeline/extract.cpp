@@ -112,6 +112,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     labelled = label_scene(inputs, plan, request, folder.path(), sink, cancel);
     report.voxels = labelled->scene.store.size();
     report.supervoxels = labelled->scene.clusters.count;
+    report.voxel_tiles = labelled->scene.clusters.tiles;
     report.peak_temp_bytes = labelled->scene.peak_temp_bytes;
     plan.memory = plan_memory({request.memory_bytes, request.threads});
     watch.lap("supervoxels");

@@ -86,7 +86,8 @@ Json to_json(const ExtractReport& r) {
                    {"fold", r.fold},
                    {"contact", r.contact},
                    {"isolated_points", r.isolated}};
-  if (r.parameters.by_supervoxels()) json["supervoxels"] = {{"voxels", r.voxels}, {"count", r.supervoxels}};
+  if (r.parameters.by_supervoxels())
+    json["supervoxels"] = {{"voxels", r.voxels}, {"count", r.supervoxels}, {"tiles", r.voxel_tiles}};
   json["tiles"] = {{"count", r.tiles},
                    {"largest_points", r.largest_tile_points},
                    {"points_limit", r.tile_points_limit},

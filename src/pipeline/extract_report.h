@@ -21,6 +21,7 @@ struct ExtractReport : RunReport {
   std::uint64_t isolated = 0;
   std::uint64_t voxels = 0;  ///< Method zheng, as the supervoxels.
   std::uint64_t supervoxels = 0;
+  std::uint64_t voxel_tiles = 0;
 
   std::uint64_t tiles = 0;
   std::uint64_t largest_tile_points = 0;
