@@ -9,6 +9,7 @@
 
 #include "support/arris_process.h"
 #include "support/temp_folder.h"
+#include "support/thread_sanitizer.h"
 
 namespace arris::test {
 namespace {
@@ -45,6 +46,7 @@ TEST(SynthTown_Truth, OfTheScan_IsTheDefaultAndTheSameForAnyThreads) {
 }
 
 TEST(EvaluateLocalSpacing, InputAsPrediction_CoversTheTruthOfItsScan) {
+  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
   const TempFolder folder;
   const std::string scan = folder / "scan.las", truth = folder / "truth.csv";
   ASSERT_EQ(run_arris({"synth", "town", "--points", "200000", "-o", scan, "--truth", truth}).exit_code, 0);
