@@ -15,8 +15,8 @@
 
 #include "support/arris_process.h"
 #include "support/las_tools.h"
+#include "support/sanitizers.h"
 #include "support/temp_folder.h"
-#include "support/thread_sanitizer.h"
 
 namespace arris::test {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/sanitizers.h"
 #include "support/temp_folder.h"
-#include "support/thread_sanitizer.h"
 #include "tiling_matrix.h"
 
 namespace arris::test {
@@ -19,7 +19,7 @@ TEST(ExactTilingLiu, PointsOnTileFaces_SameBytes) {
 }
 
 TEST(ExactTilingLiu, SyntheticBlock_SameBytes) {
-  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
+  ARRIS_SKIP_UNDER_SANITIZERS;
   const TempFolder folder;
   synth_scan(folder / "scan.las", {"block", "--spacing", "0.25", "--noise", "0.05", "--seed", "3"});
   expect_same_bytes(folder / "scan.las", least_matrix(), 10, kLiu);
