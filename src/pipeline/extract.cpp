@@ -21,7 +21,6 @@
 #include "tiling/tile_store.h"
 
 namespace arris::pipeline {
-
 namespace {
 
 /// Supervoxels of the scan, as the method zheng asks for them.
@@ -40,7 +39,7 @@ std::unique_ptr<const LabelledScene> label_scene(io::InputSet& inputs, const Job
                                            request.tile_points_cap, request.threads, true, folder},
                                           progress, cancel),
                     {}});
-  merge::SupervoxelMoments moments(labelled->scene.clusters.count, 4 * plan.scale.seed_steps);
+  merge::SupervoxelMoments moments(labelled->scene.clusters.count, kReachCells * plan.scale.seed_steps);
   const tiling::LatticeMapper mapper(inputs.sources(), plan.survey.lattice);
   sum_moments(inputs, mapper, labelled->scene.labels(), moments, progress, cancel);
   labelled->table = moments.table(labelled->scene.clusters.adjacency);
@@ -92,16 +91,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
   io::InputSet inputs(paths, request.tolerance);
   ProblemWarnings problems(inputs, sink);
   problems.forward();
-  io::OutputOptions output_options;
-  output_options.overwrite = request.overwrite;
-  output_options.every_point = request.keep_all;
-  output_options.mixed_crs = request.mixed_crs;
-  std::vector<std::unique_ptr<io::KeptPointWriter>> writers;
-  for (const std::filesystem::path& output : request.outputs) {
-    writers.push_back(io::create_kept_point_writer(output, inputs, contour_columns(request.refined), output_options));
-    report.outputs.push_back(output.string());
-  }
-
+  Writers writers = open_writers(request, inputs, contour_columns(request.refined), request.keep_all, report);
   inputs.exclude(request.exclusion);
   JobPlan plan = survey_job(inputs, request, sink, cancel);
   problems.forward();
@@ -142,11 +132,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     release_free_memory();
   }
   gather_points(inputs, request, plan.method, results, writers, report, sink, cancel);
-  inputs.check_unchanged();
-  for (const auto& writer : writers) {
-    writer->commit();
-    for (const std::string& warning : writer->warnings()) sink.warning("not-carried", warning);
-  }
+  commit_writers(writers, inputs, sink);
   watch.lap("write");
 
   hash_inputs(request, report);

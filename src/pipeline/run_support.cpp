@@ -103,6 +103,28 @@ void check_temp_space(std::uint64_t predicted_bytes, const RunRequest& request, 
   }
 }
 
+Writers open_writers(const RunRequest& request, const io::InputSet& inputs, const std::vector<ColumnSpec>& columns,
+                     bool every_point, RunReport& report) {
+  io::OutputOptions options;
+  options.overwrite = request.overwrite;
+  options.every_point = every_point;
+  options.mixed_crs = request.mixed_crs;
+  Writers writers;
+  for (const std::filesystem::path& output : request.outputs) {
+    writers.push_back(io::create_kept_point_writer(output, inputs, columns, options));
+    report.outputs.push_back(output.string());
+  }
+  return writers;
+}
+
+void commit_writers(const Writers& writers, const io::InputSet& inputs, ProgressSink& progress) {
+  inputs.check_unchanged();
+  for (const auto& writer : writers) {
+    writer->commit();
+    for (const std::string& warning : writer->warnings()) progress.warning("not-carried", warning);
+  }
+}
+
 void hash_inputs(const RunRequest& request, RunReport& report) {
   if (!request.hash_inputs) return;
   for (InputReport& input : report.inputs) input.hash = content_hash(input.path);

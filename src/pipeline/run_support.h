@@ -4,10 +4,13 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
+#include "core/columns.h"
 #include "core/progress.h"
 #include "io/point_source.h"
+#include "io/point_writer.h"
 #include "pipeline/run_report.h"
 #include "pipeline/run_request.h"
 #include "tiling/survey.h"
@@ -65,6 +68,13 @@ void describe_inputs(const tiling::Survey& survey, const io::InputSet& inputs, c
 void warn_of_dropped(const RunReport& report, ProgressSink& progress);
 /// Throws BudgetError if temporary files of that size do not fit where the request wants them; warns if that is memory.
 void check_temp_space(std::uint64_t predicted_bytes, const RunRequest& request, ProgressSink& progress);
+using Writers = std::vector<std::unique_ptr<io::KeptPointWriter>>;
+/// One writer per output, named in the report. @param every_point  all points of the inputs will be written.
+Writers open_writers(const RunRequest& request, const io::InputSet& inputs, const std::vector<ColumnSpec>& columns,
+                     bool every_point, RunReport& report);
+/// Makes the outputs appear, if the inputs are still what they were; forwards what the writers could not carry.
+void commit_writers(const Writers& writers, const io::InputSet& inputs, ProgressSink& progress);
+
 /// Hashes of the inputs, if asked for.
 void hash_inputs(const RunRequest& request, RunReport& report);
 

@@ -16,30 +16,12 @@
 #include "pipeline/voxel_memory.h"
 
 namespace arris::pipeline {
-namespace {
-
-std::vector<std::unique_ptr<io::KeptPointWriter>> open_writers(const SupervoxelRequest& request,
-                                                               const io::InputSet& inputs, SupervoxelReport& report) {
-  io::OutputOptions options;
-  options.overwrite = request.overwrite;
-  options.every_point = true;
-  options.mixed_crs = request.mixed_crs;
-  std::vector<std::unique_ptr<io::KeptPointWriter>> writers;
-  for (const std::filesystem::path& output : request.outputs) {
-    writers.push_back(io::create_kept_point_writer(
-        output, inputs, {{"SupervoxelId", ColumnType::kUint32, "supervoxel, 0 none"}}, options));
-    report.outputs.push_back(output.string());
-  }
-  return writers;
-}
-
-}  // namespace
 
 SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSink& progress,
                                    const CancelToken& cancel) {
   if (request.outputs.empty()) throw ConfigError("no output given; add -o FILE");
-  require_text_format(request.table, "--table");
-  require_text_format(request.adjacency, "--adjacency");
+  check_text_output(request.table, "--table", request.overwrite);
+  check_text_output(request.adjacency, "--adjacency", request.overwrite);
   SupervoxelReport report;
   report.parameters = request.parameters;
   validate(report.parameters);
@@ -51,7 +33,8 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   io::InputSet inputs(paths, request.tolerance);
   ProblemWarnings problems(inputs, sink);
   problems.forward();
-  std::vector<std::unique_ptr<io::KeptPointWriter>> writers = open_writers(request, inputs, report);
+  Writers writers =
+      open_writers(request, inputs, {{"SupervoxelId", ColumnType::kUint32, "supervoxel, 0 none"}}, true, report);
   inputs.exclude(request.exclusion);
   const ThreadLimit limit(request.threads);
 
@@ -87,7 +70,7 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   const tiling::LatticeMapper mapper(inputs.sources(), survey.lattice);
   const VoxelLabels labels = scene.labels();
   if (!request.table.empty()) {
-    merge::SupervoxelMoments moments(clusters.count, 4 * scale.seed_steps);
+    merge::SupervoxelMoments moments(clusters.count, kReachCells * scale.seed_steps);
     sum_moments(inputs, mapper, labels, moments, sink, cancel);
     write_supervoxel_table(request.table, moments.table(clusters.adjacency), moments, survey.lattice,
                            request.overwrite);
@@ -95,11 +78,7 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   }
   if (!request.adjacency.empty()) write_adjacency(request.adjacency, clusters.adjacency, request.overwrite);
   report.points_out = write_labels(inputs, mapper, labels, writers, sink, cancel);
-  inputs.check_unchanged();
-  for (const auto& writer : writers) {
-    writer->commit();
-    for (const std::string& warning : writer->warnings()) sink.warning("not-carried", warning);
-  }
+  commit_writers(writers, inputs, sink);
   watch.lap("write");
   hash_inputs(request, report);
   report.cpu_seconds = process_cpu_seconds() - cpu_before;

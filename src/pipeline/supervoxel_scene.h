@@ -25,6 +25,10 @@ struct SupervoxelSceneRequest {
   std::filesystem::path folder;  ///< For temporary files.
 };
 
+/// No two points of a supervoxel are further apart along an axis than this many seed cells: growth reaches 1.8 on both
+/// sides of a seed, and the coarsest voxels are half a cell wide.
+constexpr std::int64_t kReachCells = 8;
+
 /// Voxels of all points and the supervoxel of each. Keeps in memory about 7 bytes per voxel, and the adjacency.
 struct SupervoxelScene {
   tiling::VoxelStore store;

@@ -44,11 +44,14 @@ class Rows {
 
 }  // namespace
 
-void require_text_format(const std::filesystem::path& path, const char* option) {
+void check_text_output(const std::filesystem::path& path, const char* option, bool overwrite) {
   if (path.empty()) return;
   const std::string text = extension(path);
   if (text != ".csv" && text != ".json")
     throw ConfigError(fmt::format("{} {}: the name must end in .csv or .json", option, path.string()));
+  std::error_code unknown;
+  if (!overwrite && std::filesystem::exists(path, unknown))
+    throw ConfigError(fmt::format("{} exists; add --overwrite to replace it", path.string()));
 }
 
 void write_supervoxel_table(const std::filesystem::path& path, const SupervoxelTable& table,

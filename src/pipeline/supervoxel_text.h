@@ -12,8 +12,9 @@
 
 namespace arris::pipeline {
 
-/// Throws ConfigError unless the name ends in .csv or .json.
-void require_text_format(const std::filesystem::path& path, const char* option);
+/// Before any work: throws ConfigError unless the name (if not empty) ends in .csv or .json and is free or may be
+/// overwritten.
+void check_text_output(const std::filesystem::path& path, const char* option, bool overwrite);
 
 /// id, points, centroid x y z, normal nx ny nz (0 0 0: none; the sign has no meaning), area and thickness (RMS distance
 /// from the plane) in data units. CSV with a header line, or a JSON array of objects.
