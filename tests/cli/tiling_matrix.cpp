@@ -18,7 +18,7 @@ namespace arris::test {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__)
-const std::string kSmallBudget = "768MiB";  // AddressSanitizer's own memory counts as resident.
+const std::string kSmallBudget = "1GiB";  // AddressSanitizer's own memory counts as resident.
 #else
 const std::string kSmallBudget = "256MiB";
 #endif
