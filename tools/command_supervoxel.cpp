@@ -34,12 +34,12 @@ std::string describe(const pipeline::SupervoxelReport& r, const std::string& mem
   std::string text = fmt::format(
       "voxels {:.4g}, seeds {:.4g}, features {}{}; spacing about {:.4g}, lattice step {:g}\n"
       "memory {} ({}), {} threads; {} tiles of at most {} voxels\n"
-      "{} points, {} voxels, {} supervoxels ({} without a seed)\n"
+      "{} points, {} voxels, {} supervoxels ({} on coarser voxels)\n"
       "{:.1f} s, {:.1f} CPU s, peak memory {} of {}",
       r.parameters.voxel, r.parameters.seed, fpfh ? "fpfh" : "normal", r.colours ? " with colour" : "", r.spacing,
       r.lattice.step, human_bytes(r.memory_budget_bytes), memory_why, r.threads, grouped(r.tiles),
       grouped(r.largest_tile_voxels), grouped(r.points_in), grouped(r.voxels), grouped(r.supervoxels),
-      grouped(r.orphans), seconds, r.cpu_seconds, human_bytes(r.peak_resident_bytes),
+      grouped(r.coarse), seconds, r.cpu_seconds, human_bytes(r.peak_resident_bytes),
       human_bytes(r.memory_budget_bytes));
   for (const std::string& output : r.outputs) text += "\nwrote " + printable(output);
   return text;

@@ -11,8 +11,8 @@
 namespace arris {
 namespace {
 
-/// Rings of voxels around a voxel on which its features depend: windows 2, their choice 2 more, point feature histograms
-/// 2 more.
+/// Rings of voxels around a voxel on which its features depend: windows 2, their choice 2 more, point feature
+/// histograms 2 more.
 constexpr std::int32_t kFeatureRings = 6;
 constexpr double kGrowthReach = 1.8;  // Of R_seed; SupervoxelClustering of PCL.
 constexpr double kPi = 3.14159265358979323846;
@@ -43,7 +43,6 @@ SupervoxelScale resolve_scale(SupervoxelParameters& p, double spacing, const Lat
   validate(p);
   if (p.voxel == 0.0) p.voxel = std::clamp(kVoxelSpacings * spacing, lattice.step, kMostVoxelSide * lattice.step);
   if (p.seed == 0.0) p.seed = kSeedVoxels * p.voxel;
-  SupervoxelScale scale;
   const double voxel_steps = std::round(p.voxel / lattice.step);
   if (!(voxel_steps >= 1.0 && voxel_steps <= kMostVoxelSide)) {
     throw ConfigError(fmt::format("--voxel {:g} is {:g} steps of the lattice ({:g}), outside of 1 to {}", p.voxel,
@@ -57,12 +56,17 @@ SupervoxelScale resolve_scale(SupervoxelParameters& p, double spacing, const Lat
     throw ConfigError(fmt::format("--seed {:g} is too large: at most 1000 times --voxel, and {} steps of the lattice",
                                   p.seed, kMostSeedSteps));
   }
-  scale.voxel_steps = static_cast<std::int32_t>(voxel_steps);
-  scale.seed_steps = static_cast<std::int64_t>(seed_steps);
-  scale.levels = static_cast<int>(kGrowthReach * seed_steps / voxel_steps);
-  scale.search_steps = scale.seed_steps / 2;
+  return make_scale(static_cast<std::int32_t>(voxel_steps), static_cast<std::int64_t>(seed_steps), p);
+}
+
+SupervoxelScale make_scale(std::int32_t voxel_steps, std::int64_t seed_steps, const SupervoxelParameters& parameters) {
+  SupervoxelScale scale;
+  scale.voxel_steps = voxel_steps;
+  scale.seed_steps = seed_steps;
+  scale.levels = static_cast<int>(kGrowthReach * static_cast<double>(seed_steps) / voxel_steps);
+  scale.search_steps = seed_steps / 2;
   const double radius = static_cast<double>(scale.search_steps) / voxel_steps;
-  scale.least_support = static_cast<std::uint32_t>(std::ceil(p.seed_support * kPi * radius * radius));
+  scale.least_support = static_cast<std::uint32_t>(std::ceil(parameters.seed_support * kPi * radius * radius));
   return scale;
 }
 

@@ -52,6 +52,9 @@ struct SupervoxelScale {
 /// Most steps of a seed cell: squared distances stay exact in int64.
 constexpr std::int64_t kMostSeedSteps = std::int64_t{1} << 26;
 
+/// @param seed_steps  >= 2 voxel_steps.
+SupervoxelScale make_scale(std::int32_t voxel_steps, std::int64_t seed_steps, const SupervoxelParameters& parameters);
+
 /// Resolves what is 0. @param spacing  of the scan, data units; used where R_voxel is not given.
 /// Throws ConfigError if a voxel is below one step, a seed cell too large, or R_seed < 2 R_voxel.
 SupervoxelScale resolve_scale(SupervoxelParameters& parameters, double spacing, const Lattice& lattice);

@@ -21,7 +21,8 @@ struct VoxelFeatures {
 /// @param full_colour  raw channel value that stands for full intensity (255 or 65535).
 VoxelFeatures voxel_features(const VoxelTile& tile, const SupervoxelParameters& parameters, double full_colour);
 
-/// Bytes per voxel of a tile with its features, adjacency and growth state; for predictions.
-double supervoxel_bytes_per_voxel(SupervoxelParameters::Features features, bool colours);
+/// Peak bytes per voxel of a tile while it is loaded, described and grown; for predictions.
+/// @param neighbours  existing neighbours of a voxel on average, 0 to 26.
+double supervoxel_bytes_per_voxel(SupervoxelParameters::Features features, bool colours, double neighbours);
 
 }  // namespace arris

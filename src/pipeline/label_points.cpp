@@ -4,14 +4,17 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "tiling/survey.h"
 
 namespace arris::pipeline {
 namespace {
 
+constexpr std::size_t kGrain = 8 * 1024;
+
 /// Calls use(batch, labels of its points); 0 for points that take no part.
 template <class Use>
-void for_each_labelled_batch(io::InputSet& inputs, const tiling::LatticeMapper& mapper, VoxelLabels& labels,
+void for_each_labelled_batch(io::InputSet& inputs, const tiling::LatticeMapper& mapper, const VoxelLabels& labels,
                              bool records, const CancelToken& cancel, Use&& use) {
   io::ReadOptions options;
   options.records = records;
@@ -24,11 +27,14 @@ void for_each_labelled_batch(io::InputSet& inputs, const tiling::LatticeMapper& 
     cancel.check();
     mapper.map(batch, inputs.source_index(), positions, outcome);
     ids.assign(batch.count, 0);
-    for (std::size_t i = 0; i < batch.count; ++i) {
-      if (outcome[i] != tiling::Mapped::kOk) continue;
-      ids[i] = labels.at(positions[i]);
-      if (ids[i] == 0) throw InputError("the inputs changed while they were read; run again when they are complete");
-    }
+    parallel_for_chunks(batch.count, kGrain, [&](std::size_t begin, std::size_t end) {
+      VoxelLabels own = labels;  // Remembers where it was: one per chunk.
+      for (std::size_t i = begin; i < end; ++i) {
+        if (outcome[i] != tiling::Mapped::kOk) continue;
+        ids[i] = own.at(positions[i]);
+        if (ids[i] == 0) throw InputError("the inputs changed while they were read; run again when they are complete");
+      }
+    });
     use(batch, positions, ids);
   }
 }

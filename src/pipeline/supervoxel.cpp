@@ -68,7 +68,7 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   const RunFolder folder(request.temp_dir);
   const SupervoxelScene scene =
       make_supervoxel_scene(inputs, survey,
-                            {report.parameters, scale, request.memory_bytes, request.tile_points_cap,
+                            {report.parameters, scale, request.memory_bytes, request.tile_points_cap, request.threads,
                              !request.adjacency.empty(), folder.path()},
                             sink, cancel);
   const SupervoxelStageResult& clusters = scene.clusters;
@@ -76,7 +76,8 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   report.voxels = scene.store.size();
   report.peak_temp_bytes = scene.peak_temp_bytes;
   report.supervoxels = clusters.count;
-  report.orphans = clusters.orphans;
+  report.coarse = clusters.coarse;
+  report.groups = clusters.groups;
   report.neighbour_pairs = clusters.adjacency.size();
   report.tiles = clusters.tiles;
   report.largest_tile_voxels = clusters.largest_tile_voxels;
@@ -126,7 +127,10 @@ nlohmann::ordered_json to_json(const SupervoxelReport& r) {
   json["colour"] = r.colours;
   json["points"] = {{"in", r.points_in}, {"out", r.points_out}, {"unlabelled", dropped_json(r)}};
   json["voxels"] = r.voxels;
-  json["supervoxels"] = {{"count", r.supervoxels}, {"without_seed", r.orphans}, {"neighbour_pairs", r.neighbour_pairs}};
+  json["supervoxels"] = {{"count", r.supervoxels},
+                         {"on_coarser_voxels", r.coarse},
+                         {"without_seed", r.groups},
+                         {"neighbour_pairs", r.neighbour_pairs}};
   json["tiles"] = {{"count", r.tiles}, {"largest_voxels", r.largest_tile_voxels}};
   append_report_tail(json, r);
   return json;

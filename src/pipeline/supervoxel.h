@@ -25,7 +25,8 @@ struct SupervoxelReport : RunReport {
   bool colours = false;
   std::uint64_t voxels = 0;
   std::uint64_t supervoxels = 0;
-  std::uint64_t orphans = 0;  ///< Of them, those that no seed reached.
+  std::uint64_t coarse = 0;  ///< Of them, those on coarser voxels, where points are far apart.
+  std::uint64_t groups = 0;  ///< Of them, those that grew from no seed.
   std::uint64_t neighbour_pairs = 0;
   std::uint64_t tiles = 0;
   std::uint64_t largest_tile_voxels = 0;

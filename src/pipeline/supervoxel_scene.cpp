@@ -13,10 +13,12 @@ SupervoxelScene make_supervoxel_scene(io::InputSet& inputs, const tiling::Survey
                                       const CancelToken& cancel) {
   const VoxelMemory memory(request.memory_bytes);
   VoxelStageResult voxels = run_voxel_stage(inputs, survey, request.scale, request.parameters.colour, request.folder,
-                                            memory.table_bytes(), progress, cancel);
+                                            memory, request.threads, progress, cancel);
   release_free_memory();
-  const SupervoxelStageRequest stage{request.parameters,   request.scale,           voxels.colours,
-                                     memory.stage_bytes(), request.tile_voxels_cap, request.adjacency};
+  const SupervoxelStageRequest stage{
+      {request.parameters, request.scale, voxels.colours, memory.stage_bytes(), request.tile_voxels_cap},
+      request.adjacency,
+      request.folder};
   SupervoxelStageResult clusters = run_supervoxel_stage(voxels.store, stage, progress, cancel);
   release_free_memory();
   const std::uint64_t predicted = memory.predicted_peak_bytes(clusters.predicted_bytes);

@@ -1,175 +1,80 @@
 #include "pipeline/supervoxel_stage.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <optional>
-#include <unordered_map>
 
-#include "core/error.h"
 #include "core/process_memory.h"
-#include "core/text.h"
-#include "features/cluster_growth.h"
-#include "features/leftover_voxels.h"
-#include "features/seed_cells.h"
-#include "features/voxel_features.h"
-#include "merge/cluster_table.h"
-#include "tiling/voxel_tiles.h"
+#include "features/clusters.h"
+#include "pipeline/cluster_level.h"
+#include "pipeline/coarser_voxels.h"
 
 namespace arris::pipeline {
 namespace {
 
-/// Full intensity of the colours of voxels.
-constexpr double kFullColour = 65535.0;
-/// Bytes of a cluster in all tables, for predictions before the clusters are known.
-constexpr double kClusterBytes = 300.0;
-constexpr double kClusterHistogramBytes = 400.0;
-/// A tile may not be cut below this many voxels.
-constexpr std::uint64_t kLeastTileVoxels = 20'000;
-
-struct LoadedTile {
-  VoxelTile voxels;
-  VoxelFeatures features;
-};
+/// Takes turns with coarser voxels until every voxel of `walk` has a cluster.
+ClusterLevel cluster_all(VoxelTileWalk& walk, const SupervoxelStageRequest& request, std::uint64_t kept_bytes,
+                         ProgressSink& progress, const CancelToken& cancel) {
+  const TileWalkRequest& here = walk.request();
+  const bool coarsest = !can_coarsen(here.scale);
+  ClusterLevel level = cluster_level(walk, coarsest, kept_bytes, progress);
+  if (coarsest || std::find(level.clusters_of.begin(), level.clusters_of.end(), kNoCluster) == level.clusters_of.end())
+    return level;
+  walk.drop();
+  // Half of what is left: the other half is for reading these voxels.
+  const std::uint64_t here_bytes = kept_bytes + sizeof(std::uint32_t) * level.clusters_of.size();
+  const std::uint64_t left_bytes = here.memory_bytes > here_bytes ? here.memory_bytes - here_bytes : 0;
+  const tiling::VoxelStore coarse = coarser_voxels(walk.store(), walk.tiles(), level.clusters_of, here.colours,
+                                                   request.folder, left_bytes / 2, cancel);
+  TileWalkRequest there = here;
+  there.scale = coarser(here.scale, here.parameters);
+  VoxelTileWalk coarse_walk(coarse, there, progress, cancel);
+  const std::uint64_t kept = here_bytes + coarse.index().memory_bytes();
+  const ClusterLevel coarse_level = cluster_all(coarse_walk, request, kept, progress, cancel);
+  inherit_clusters(walk.store(), walk.tiles(), coarse, coarse_level.clusters_of, level.count, level.clusters_of,
+                   cancel);
+  level.count += coarse_level.count;
+  level.groups = coarse_level.groups;
+  return level;
+}
 
 class Stage {
  public:
   Stage(const tiling::VoxelStore& store, const SupervoxelStageRequest& request, ProgressSink& progress,
         const CancelToken& cancel)
-      : store_(store), request_(request), progress_(progress), cancel_(cancel), table_(request.parameters) {}
+      : request_(request), progress_(progress), cancel_(cancel), walk_(store, request.walk, progress, cancel) {}
 
   SupervoxelStageResult run() {
-    result_.ids.assign(store_.size(), kNoCluster);
-    if (store_.size() == 0) return std::move(result_);
-    const double cells = static_cast<double>(request_.scale.seed_steps) / request_.scale.voxel_steps;
-    const auto likely_clusters = static_cast<std::uint64_t>(2.0 * store_.size() / (cells * cells)) + 1000;
-    plan(likely_clusters * static_cast<std::uint64_t>(cluster_bytes()));
-    find_all_seeds();
-    if (table_.memory_bytes() > likely_clusters * static_cast<std::uint64_t>(cluster_bytes()))
-      plan(table_.memory_bytes());
-    for (int iteration = 1; iteration <= request_.parameters.iterations; ++iteration) grow(iteration);
-    number();
-    if (request_.adjacency || request_.refine) look_at_neighbours();
+    ClusterLevel level = cluster_all(walk_, request_, 0, progress_, cancel_);
+    result_.tiles = walk_.tiles().tiles.size();
+    result_.largest_tile_voxels = walk_.largest_tile_voxels();
+    result_.predicted_bytes = walk_.predicted_bytes();
+    number(level);
+    look_at_neighbours(level.seed_ranks);
     return std::move(result_);
   }
 
  private:
-  double cluster_bytes() const { return kClusterBytes + (fpfh() ? kClusterHistogramBytes : 0.0); }
-  bool fpfh() const { return request_.parameters.features == SupervoxelParameters::Features::kFpfh; }
-
-  void plan(std::uint64_t table_bytes) {
-    const double each = supervoxel_bytes_per_voxel(request_.parameters.features, request_.colours);
-    const std::uint64_t kept = table_bytes + sizeof(std::uint32_t) * std::uint64_t{store_.size()};
-    const std::uint64_t room = request_.memory_bytes > kept ? request_.memory_bytes - kept : 0;
-    tiling::VoxelPlanRequest tiles;
-    tiles.max_voxels = std::max(kLeastTileVoxels, static_cast<std::uint64_t>(static_cast<double>(room) / each));
-    tiles.max_core_voxels = request_.tile_voxels_cap;
-    tiles.halo_voxels = request_.scale.halo_voxels();
-    plan_ = tiling::plan_voxel_tiles(store_.index(), tiles);
-    loaded_.reset();
-    result_.tiles = plan_.tiles.size();
-    result_.largest_tile_voxels = std::min<std::uint64_t>(plan_.largest_covered_points, store_.size());
-    const auto tile_bytes = static_cast<std::uint64_t>(each * static_cast<double>(result_.largest_tile_voxels));
-    result_.predicted_bytes = kept + tile_bytes;
-    if (result_.predicted_bytes > request_.memory_bytes) {
-      throw BudgetError(
-          fmt::format("{} voxels and their supervoxels need {} more memory than --memory leaves; raise it, or "
-                      "choose larger --voxel or smaller --seed",
-                      grouped(store_.size()), human_bytes(result_.predicted_bytes - request_.memory_bytes)));
+  /// Dense ids in the order of ranks, in place.
+  void number(ClusterLevel& level) {
+    std::vector<std::uint32_t> id_of(level.count, 0);
+    for (std::uint32_t& cluster : level.clusters_of) {
+      std::uint32_t& id = id_of[cluster];
+      if (id == 0) id = ++result_.count;
+      cluster = id;
     }
-  }
-
-  /// Calls use(tile) for every tile; features only where they are needed.
-  template <class Use>
-  void for_each_tile(bool features, Use&& use) {
-    for (std::size_t i = 0; i < plan_.tiles.size(); ++i) {
-      cancel_.check();
-      if (plan_.tiles.size() > 1 || !loaded_) {
-        loaded_.reset();
-        release_free_memory();
-        loaded_.emplace(LoadedTile{tiling::load_voxel_tile(store_, plan_.tiles[i], request_.colours), {}});
-      }
-      if (features && loaded_->features.normals.empty())
-        loaded_->features = voxel_features(loaded_->voxels, request_.parameters, kFullColour);
-      use(*loaded_);
-      progress_.advance(plan_.tiles[i].core_points);
-    }
-    if (plan_.tiles.size() > 1) loaded_.reset();
-  }
-
-  void find_all_seeds() {
-    progress_.phase("seeds", store_.size());
-    for_each_tile(true, [&](const LoadedTile& tile) {
-      table_.add_seeds(tile.voxels, tile.features, find_seeds(tile.voxels, request_.scale));
-    });
-    table_.fix_seeds();
-  }
-
-  /// One iteration: what clusters won is kept by rank, then their centres and seeds move.
-  void grow(int iteration) {
-    const bool last = iteration == request_.parameters.iterations;
-    progress_.phase("supervoxels", store_.size());
-    for_each_tile(true, [&](const LoadedTile& tile) {
-      const std::vector<TileSeed> seeds = tile_seeds(tile.voxels, table_.clusters(), table_.by_seed_rank());
-      std::vector<std::uint32_t> clusters_of =
-          grow_clusters(tile.voxels, tile.features, table_.clusters(), seeds, request_.parameters, request_.scale);
-      if (last) {
-        const std::vector<OrphanVoxel> orphans = settle_leftovers(tile.voxels, tile.features, table_.clusters(),
-                                                                  request_.parameters, request_.scale, clusters_of);
-        orphans_.insert(orphans_.end(), orphans.begin(), orphans.end());
-      }
-      table_.add_members(tile.voxels, tile.features, clusters_of);
-      for (std::size_t v = 0; v < clusters_of.size(); ++v) {
-        if (tile.voxels.core[v] != 0) result_.ids[tile.voxels.ranks[v]] = clusters_of[v];
-      }
-    });
-    if (last) return;
-    table_.update_centres();
-    for_each_tile(false, [&](const LoadedTile& tile) {
-      std::vector<std::uint32_t> clusters_of(tile.voxels.size());
-      for (std::size_t v = 0; v < clusters_of.size(); ++v) clusters_of[v] = result_.ids[tile.voxels.ranks[v]];
-      table_.offer_seeds(tile.voxels, clusters_of);
-    });
-    table_.move_seeds();
-  }
-
-  /// Dense ids in the order of ranks; leftover groups take part by their smallest rank.
-  void number() {
-    const std::uint32_t clusters = table_.clusters().size();
-    std::sort(orphans_.begin(), orphans_.end(),
-              [](const OrphanVoxel& a, const OrphanVoxel& b) { return a.rank < b.rank; });
-    std::vector<std::uint32_t> id_of(clusters, 0);
-    std::unordered_map<std::uint32_t, std::uint32_t> id_of_root;
-    auto orphan = orphans_.begin();
-    for (std::uint32_t rank = 0; rank < store_.size(); ++rank) {
-      const std::uint32_t cluster = result_.ids[rank];
-      if (cluster != kNoCluster) {
-        if (id_of[cluster] == 0) id_of[cluster] = ++result_.count;
-        result_.ids[rank] = id_of[cluster];
-        continue;
-      }
-      if (orphan == orphans_.end() || orphan->rank != rank)
-        throw IoError("internal: a voxel belongs to no tile; please report this");
-      const auto [found, fresh] = id_of_root.try_emplace(orphan->root_rank, result_.count + 1);
-      if (fresh) {
-        ++result_.count;
-        ++result_.orphans;
-      }
-      result_.ids[rank] = found->second;
-      ++orphan;
-    }
-    orphans_ = {};
+    result_.ids = std::move(level.clusters_of);
     result_.planes.resize(std::size_t{result_.count} + 1);
-    const std::vector<ClusterPlane> planes = table_.planes();
-    for (std::uint32_t cluster = 0; cluster < clusters; ++cluster) result_.planes[id_of[cluster]] = planes[cluster];
+    for (std::size_t cluster = 0; cluster < level.planes.size(); ++cluster)
+      result_.planes[id_of[cluster]] = level.planes[cluster];
+    result_.groups = level.groups;
+    result_.coarse = level.count - static_cast<std::uint32_t>(level.planes.size());
   }
 
   /// Pairs of neighbours, and voxels that several surfaces share.
-  void look_at_neighbours() {
-    progress_.phase("neighbours", store_.size());
-    if (request_.refine) result_.shared.assign((std::size_t{store_.size()} + 63) / 64, 0);
+  void look_at_neighbours(const std::vector<std::uint32_t>& seed_ranks) {
+    progress_.phase("neighbours", result_.ids.size());
+    result_.shared.assign((result_.ids.size() + 63) / 64, 0);
     auto& pairs = result_.adjacency;
-    for_each_tile(false, [&](const LoadedTile& tile) {
+    walk_.for_each(false, [&](const LoadedTile& tile) {
       for (std::size_t v = 0; v < tile.voxels.size(); ++v) {
         if (tile.voxels.core[v] != 0) look_around(tile.voxels, v);
       }
@@ -177,34 +82,28 @@ class Stage {
       pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     });
     // Every supervoxel keeps at least the points of one voxel.
-    if (request_.refine) {
-      for (const std::uint32_t rank : table_.clusters().seed_ranks)
-        result_.shared[rank >> 6] &= ~(std::uint64_t{1} << (rank & 63));
-    }
+    for (const std::uint32_t rank : seed_ranks) result_.shared[rank >> 6] &= ~(std::uint64_t{1} << (rank & 63));
   }
 
   void look_around(const VoxelTile& tile, std::size_t v) {
     const std::uint32_t rank = tile.ranks[v];
     const std::uint32_t id = result_.ids[rank];
     std::uint32_t last = id;
+    bool shared = false;
     for (const std::uint32_t u : tile.neighbours_of(v)) {
       const std::uint32_t other = result_.ids[tile.ranks[u]];
       if (other == id || other == last) continue;
       last = other;
       if (request_.adjacency) result_.adjacency.emplace_back(std::min(id, other), std::max(id, other));
-      if (request_.refine && planes_differ(result_.planes[id], result_.planes[other], request_.scale.voxel_steps))
-        result_.shared[rank >> 6] |= std::uint64_t{1} << (rank & 63);
+      shared = shared || planes_differ(result_.planes[id], result_.planes[other], request_.walk.scale.voxel_steps);
     }
+    if (shared) result_.shared[rank >> 6] |= std::uint64_t{1} << (rank & 63);
   }
 
-  const tiling::VoxelStore& store_;
   const SupervoxelStageRequest& request_;
   ProgressSink& progress_;
   const CancelToken& cancel_;
-  merge::ClusterTable table_;
-  tiling::TilePlan plan_;
-  std::optional<LoadedTile> loaded_;
-  std::vector<OrphanVoxel> orphans_;
+  VoxelTileWalk walk_;
   SupervoxelStageResult result_;
 };
 

@@ -15,8 +15,8 @@ constexpr std::uint64_t kMiB = 1024 * 1024;
 constexpr double kSafety = 0.92;
 /// Batches with their records, read and write buffers; measured, rounded up.
 constexpr std::uint64_t kPassBytes = 16 * kMiB;
-/// The survey's counts come on top while points become voxels.
-constexpr std::uint64_t kSurveyBytes = 24 * kMiB;
+/// Fragments of the allocator while points become voxels.
+constexpr std::uint64_t kSurveyBytes = 8 * kMiB;
 constexpr std::uint64_t kLeastTableBytes = 4 * kMiB;
 constexpr std::uint64_t kMostTableBytes = 96 * kMiB;
 constexpr double kVoxelTempBytes = 36.0 + 80.0;
@@ -45,6 +45,7 @@ VoxelMemory::VoxelMemory(std::uint64_t budget_bytes)
         human_bytes(static_cast<std::uint64_t>(static_cast<double>(fixed + kLeastTableBytes) / kSafety) + kMiB)));
   }
   table_bytes_ = std::clamp((usable_bytes_ - fixed) / 2, kLeastTableBytes, kMostTableBytes);
+  index_bytes_ = usable_bytes_ - fixed - table_bytes_;
 }
 
 std::uint64_t VoxelMemory::stage_bytes() const {

@@ -15,6 +15,8 @@ class VoxelMemory {
   explicit VoxelMemory(std::uint64_t budget_bytes);
   /// Of the table that sums points per voxel.
   std::uint64_t table_bytes() const { return table_bytes_; }
+  /// Most that the index of all voxels may take.
+  std::uint64_t index_bytes() const { return index_bytes_; }
   /// For the clustering, as things stand now: what is resident is deducted.
   std::uint64_t stage_bytes() const;
   std::uint64_t predicted_peak_bytes(std::uint64_t stage_bytes) const;
@@ -22,6 +24,7 @@ class VoxelMemory {
  private:
   std::uint64_t usable_bytes_;
   std::uint64_t table_bytes_;
+  std::uint64_t index_bytes_;
   mutable std::uint64_t before_stage_bytes_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "core/progress.h"
 #include "features/supervoxel_parameters.h"
 #include "io/point_source.h"
+#include "pipeline/voxel_memory.h"
 #include "tiling/survey.h"
 #include "tiling/voxel_store.h"
 
@@ -18,10 +19,12 @@ struct VoxelStageResult {
   std::uint64_t peak_temp_bytes = 0;
 };
 
-/// Streams the inputs once (a little more with colours). @param table_bytes  memory of the voxel table.
-/// Throws ConfigError if colours are demanded and an input has none; what reading throws.
+/// Streams the inputs once (a little more with colours). @param threads
+/// above 1: points are summed on a second thread while the next ones are read. Throws ConfigError if colours are
+/// demanded and an input has none; what reading throws.
 VoxelStageResult run_voxel_stage(io::InputSet& inputs, const tiling::Survey& survey, const SupervoxelScale& scale,
                                  SupervoxelParameters::Colour colour, const std::filesystem::path& folder,
-                                 std::size_t table_bytes, ProgressSink& progress, const CancelToken& cancel);
+                                 const VoxelMemory& memory, int threads, ProgressSink& progress,
+                                 const CancelToken& cancel);
 
 }  // namespace arris::pipeline

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "tiling/voxel_merge.h"
 #include "tiling/voxel_run.h"
 #include "tiling/voxel_store_parts.h"
@@ -24,13 +25,15 @@ constexpr std::size_t kMostWriteBytes = 512 * 1024;
 constexpr std::size_t kFixedBytes = 96 * 1024;
 // Runs merged at a time: few enough for the system's limit of open files.
 constexpr std::size_t kMostRuns = 128;
+constexpr std::uint64_t kDirectoryBytes = 8;  // Of the index, per block.
 constexpr std::size_t kLeastReadBytes = 64 * 1024;
 constexpr std::size_t kMostReadBytes = 1024 * 1024;
 
 /// Records in, voxels out.
 class StoreFiller {
  public:
-  StoreFiller(VoxelFile& file, VoxelIndex& index) : file_(file), index_(index) {}
+  StoreFiller(VoxelFile& file, VoxelIndex& index, std::uint64_t most_index_bytes)
+      : file_(file), index_(index), most_index_bytes_(most_index_bytes) {}
   void add(const VoxelRecord& record) {
     if (!total_ || !(total_->key() == record.sums.key)) {
       complete();
@@ -45,12 +48,24 @@ class StoreFiller {
     }
     file_.append(total_->mean());
     index_.append(total_->key());
+    if ((index_.size() & (kCheckEvery - 1)) == 0) check_index();
     total_.reset();
   }
 
  private:
+  static constexpr std::uint32_t kCheckEvery = 4096;  // A power of two.
+
+  void check_index() const {
+    // The directory comes on top when all blocks are known.
+    if (index_.memory_bytes() + index_.blocks() * kDirectoryBytes <= most_index_bytes_) return;
+    throw BudgetError(fmt::format(
+        "the index of more than {} voxels does not fit into what --memory leaves; raise it, or choose a larger --voxel",
+        grouped(index_.size())));
+  }
+
   VoxelFile& file_;
   VoxelIndex& index_;
+  std::uint64_t most_index_bytes_;
   std::optional<VoxelTotal> total_;
 };
 
@@ -70,6 +85,7 @@ struct VoxelAccumulator::Impl {
   Impl(const VoxelGrid& of, Options options)
       : grid(of),
         folder(std::move(options.folder)),
+        most_index_bytes(options.most_index_bytes),
         write_bytes(std::min(options.table_bytes / 16, kMostWriteBytes)),
         free_bytes(options.table_bytes - std::min(kFixedBytes + write_bytes, options.table_bytes / 2)),
         table(std::in_place, of, free_bytes) {}
@@ -128,6 +144,7 @@ struct VoxelAccumulator::Impl {
 
   VoxelGrid grid;
   std::filesystem::path folder;
+  std::uint64_t most_index_bytes;
   std::size_t write_bytes;  // For the buffer of the file being written.
   std::size_t free_bytes;   // For the table, later for reading runs.
   std::optional<VoxelTable> table;
@@ -161,7 +178,7 @@ void VoxelAccumulator::add(std::span<const LatticePoint> positions, std::span<co
 VoxelStore VoxelAccumulator::finish() {
   Impl& impl = *impl_;
   auto store = std::make_unique<VoxelStore::Impl>(impl.grid, impl.folder / "voxels.store", impl.write_bytes);
-  StoreFiller filler(store->file, store->index);
+  StoreFiller filler(store->file, store->index, impl.most_index_bytes);
   if (impl.runs.empty()) {
     impl.table->drain([&](const VoxelRecord& record) { filler.add(record); });
     impl.table.reset();

@@ -26,6 +26,7 @@ class VoxelAccumulator {
   struct Options {
     std::filesystem::path folder;                   ///< Existing; runs and the store go here.
     std::size_t table_bytes = 32U * 1024U * 1024U;  ///< >= 1 MiB; less works, but takes more than was said.
+    std::uint64_t most_index_bytes = ~std::uint64_t{0};  ///< finish() throws BudgetError rather than exceed it.
   };
   VoxelAccumulator(const VoxelGrid& grid, Options options);
   ~VoxelAccumulator();
@@ -34,7 +35,8 @@ class VoxelAccumulator {
 
   /// @param colours  as many as positions, or none.
   void add(std::span<const LatticePoint> positions, std::span<const RawColour> colours = {});
-  /// Completes the voxels; call once, then add() no more. Throws IoError; BudgetError if there are 2^32 - 1 or more.
+  /// Completes the voxels; call once, then add() no more. Throws IoError; BudgetError if there are 2^32 - 1 or more
+  /// voxels, or if their index becomes too large.
   VoxelStore finish();
   std::uint64_t bytes_on_disk() const;  ///< Of runs and store, at most so far.
 

@@ -1,5 +1,6 @@
 #include "tiling/voxel_neighbours.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/parallel.h"
@@ -7,8 +8,8 @@
 namespace arris::tiling {
 namespace {
 
-constexpr std::size_t kGrain = 64;  // Blocks.
-constexpr std::int32_t kSide = 8;   // Of a block.
+constexpr std::size_t kGrain = 1024;  // Blocks.
+constexpr std::int32_t kSide = 8;     // Of a block.
 constexpr std::int32_t kCube = kSide + 2;
 constexpr std::size_t kNeighbours = 26;
 
@@ -45,7 +46,7 @@ class Cube {
           const LatticePoint key{static_cast<std::int32_t>(middle.key.x + x),
                                  static_cast<std::int32_t>(middle.key.y + y),
                                  static_cast<std::int32_t>(middle.key.z + z)};
-          const std::uint32_t found = index_.find_block(key);
+          const std::uint32_t found = find(key);
           if (found != VoxelIndex::kNone) add(index_.block(found));
         }
       }
@@ -83,39 +84,55 @@ class Cube {
     }
   }
 
+  /// Blocks come in Z-order: most of those around one were around the one before.
+  std::uint32_t find(const LatticePoint& block) {
+    Found& slot = recent_[static_cast<std::size_t>((block.x & 15) | (block.y & 15) << 4 | (block.z & 7) << 8)];
+    if (!slot.known || slot.key != block) slot = {block, index_.find_block(block), true};
+    return slot.index;
+  }
+
+  struct Found {
+    LatticePoint key;
+    std::uint32_t index = 0;
+    bool known = false;
+  };
+
   const VoxelTile& tile_;
   const VoxelIndex& index_;
+  std::vector<Found> recent_ = std::vector<Found>(2048);
   LatticePoint corner_;
   std::array<std::uint32_t, kCube * kCube * kCube> cells_;
   std::vector<std::uint32_t> used_;
 };
 
-template <class Use>
-void for_each_voxel(const VoxelTile& tile, const VoxelIndex& index, Use&& use) {
-  parallel_for_chunks(index.blocks(), kGrain, [&](std::size_t begin, std::size_t end) {
-    Cube cube(tile, index);
-    for (std::size_t i = begin; i < end; ++i) {
-      cube.load(i);
-      const VoxelIndex::Block block = index.block(i);
-      for (std::size_t v = block.first_rank; v < block.first_rank + block.voxels; ++v) use(cube, v);
-    }
-  });
-}
-
 }  // namespace
 
 void link_neighbours(VoxelTile& tile, const VoxelIndex& index) {
+  const std::size_t blocks = index.blocks();
+  std::vector<std::vector<std::uint32_t>> lists((blocks + kGrain - 1) / kGrain);  // Of a chunk of blocks each.
   tile.neighbour_begin.assign(tile.size() + 1, 0);
-  for_each_voxel(tile, index, [&](const Cube& cube, std::size_t v) {
-    std::uint32_t count = 0;
-    cube.for_each_neighbour(v, [&](std::uint32_t) { ++count; });
-    tile.neighbour_begin[v + 1] = count;
+  parallel_for_chunks(blocks, kGrain, [&](std::size_t begin, std::size_t end) {
+    Cube cube(tile, index);
+    std::vector<std::uint32_t>& list = lists[begin / kGrain];
+    for (std::size_t i = begin; i < end; ++i) {
+      cube.load(i);
+      const VoxelIndex::Block block = index.block(i);
+      for (std::size_t v = block.first_rank; v < block.first_rank + block.voxels; ++v) {
+        const std::size_t before = list.size();
+        cube.for_each_neighbour(v, [&](std::uint32_t neighbour) { list.push_back(neighbour); });
+        tile.neighbour_begin[v + 1] = static_cast<std::uint32_t>(list.size() - before);
+      }
+    }
+    list.shrink_to_fit();
   });
   for (std::size_t v = 0; v < tile.size(); ++v) tile.neighbour_begin[v + 1] += tile.neighbour_begin[v];
   tile.neighbours.resize(tile.neighbour_begin.back());
-  for_each_voxel(tile, index, [&](const Cube& cube, std::size_t v) {
-    std::uint32_t* to = tile.neighbours.data() + tile.neighbour_begin[v];
-    cube.for_each_neighbour(v, [&](std::uint32_t neighbour) { *to++ = neighbour; });
+  parallel_for_chunks(lists.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t first = tile.neighbour_begin[index.block(i * kGrain).first_rank];
+      std::copy(lists[i].begin(), lists[i].end(), tile.neighbours.begin() + first);
+      lists[i] = {};
+    }
   });
 }
 

@@ -137,10 +137,10 @@ TEST(VoxelAccumulator, NoPoints_GiveAnEmptyStore) {
 TEST(VoxelAccumulator, OnePoint_IsItsVoxelsMean) {
   const test::TempFolder folder;
   VoxelAccumulator accumulator(VoxelGrid(30), {folder.path(), 1 << 20});
-  accumulator.add(std::vector<LatticePoint>{{-16, 46, 0}}, std::vector<RawColour>{{1, 2, 65535}});
+  accumulator.add(std::vector<LatticePoint>{{-1, 31, 0}}, std::vector<RawColour>{{1, 2, 65535}});
   const VoxelStore store = accumulator.finish();
   EXPECT_EQ(store.largest_colour(), 65535);
-  const Voxel expected{{-1, 2, 0}, {29 * 16, 16, 15 * 16}, 1, {1, 2, 65535}, 0};
+  const Voxel expected{{0, 1, 0}, {14 * 16, 16 * 16, 15 * 16}, 1, {1, 2, 65535}, 0};
   EXPECT_EQ(all_voxels(store), (std::vector<Voxel>{expected}));
 }
 
@@ -159,9 +159,10 @@ TEST(VoxelAccumulator, VoxelsAtTheEndsOfTheLattice_AreExact) {
   }
 }
 
+constexpr std::int32_t kHalf = 1 << 19;  // Of the largest voxel.
+
 TEST(VoxelAccumulator, MillionsOfPointsInTheLargestVoxel_AreSummedExactly) {
   // Sums far beyond 32 bits: 4096 points fill one.
-  constexpr std::int32_t kHalf = 1 << 19;
   const std::vector<LatticePoint> batch(1 << 16, {-kHalf - 1, kHalf - 1, 7 - kHalf});
   const std::vector<RawColour> colours(batch.size(), {65535, 65534, 3});
   for (const bool coloured : {false, true}) {
@@ -184,7 +185,7 @@ TEST(VoxelAccumulator, NearlyFullSumsInManyRuns_AreMergedExactly) {
   VoxelAccumulator accumulator(VoxelGrid(1 << 20), {folder.path(), 4096});
   std::vector<LatticePoint> points;
   for (std::int32_t round = 0; round < 60; ++round) {
-    points.insert(points.end(), 3000, {(1 << 19) - 1, (1 << 19) - 2, 5});
+    points.insert(points.end(), 3000, {kHalf - 1, kHalf - 2, 5});
     for (std::int32_t i = 1; i < 60; ++i) points.push_back({i << 20, 0, round});
   }
   const std::vector<RawColour> colours(points.size(), {65535, 1, 65535});
