@@ -10,7 +10,9 @@
 namespace arris::tiling {
 
 struct VoxelPlanRequest {
-  std::uint64_t max_voxels = 0;  ///< Most covered voxels of a tile, >= 1; exceeded by a tile of one 8^3 block only.
+  /// Most covered voxels of a tile, >= 1; exceeded only by a tile of one 8^3 block, and where the halo alone is so large
+  /// that the core is less than 1/64 of this.
+  std::uint64_t max_voxels = 0;
   std::uint64_t max_core_voxels = 0;  ///< Most core voxels, likewise; 0: no such limit.
   std::int32_t halo_voxels = 0;       ///< >= 0.
 };
