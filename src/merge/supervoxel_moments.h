@@ -13,7 +13,7 @@
 namespace arris::merge {
 
 /// Sums over points, whatever their order. Offsets are from the supervoxel's first point in the order of the inputs,
-/// rounded down to multiples of 2^shift steps so that they stay below 2^17 and 2^30 points cannot overflow. 96 bytes
+/// rounded down to multiples of 2^shift steps so that they stay below 2^17 and 2^28 points cannot overflow. 96 bytes
 /// per supervoxel. Not thread-safe.
 class SupervoxelMoments {
  public:

@@ -22,6 +22,8 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   if (request.outputs.empty()) throw ConfigError("no output given; add -o FILE");
   check_text_output(request.table, "--table", request.overwrite);
   check_text_output(request.adjacency, "--adjacency", request.overwrite);
+  if (!request.table.empty() && request.table == request.adjacency)
+    throw ConfigError("--table and --adjacency name the same file");
   SupervoxelReport report;
   report.parameters = request.parameters;
   validate(report.parameters);
