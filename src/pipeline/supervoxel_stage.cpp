@@ -1,8 +1,10 @@
 #include "pipeline/supervoxel_stage.h"
 
 #include <algorithm>
+#include <atomic>
+#include <mutex>
 
-#include "core/process_memory.h"
+#include "core/parallel.h"
 #include "features/clusters.h"
 #include "pipeline/cluster_level.h"
 #include "pipeline/coarser_voxels.h"
@@ -10,17 +12,30 @@
 namespace arris::pipeline {
 namespace {
 
+/// More than a leftover voxel can take: table, index, tile with histograms, cluster.
+constexpr std::uint64_t kCoarseBytes = 700;
+constexpr std::uint64_t kLeastCoarseBytes = 8 * 1024 * 1024;
+constexpr std::size_t kGrain = 16 * 1024;
+
 /// Takes turns with coarser voxels until every voxel of `walk` has a cluster.
 ClusterLevel cluster_all(VoxelTileWalk& walk, const SupervoxelStageRequest& request, std::uint64_t kept_bytes,
                          ProgressSink& progress, const CancelToken& cancel) {
   const TileWalkRequest& here = walk.request();
   const bool coarsest = !can_coarsen(here.scale);
   ClusterLevel level = cluster_level(walk, coarsest, kept_bytes, progress);
-  if (coarsest || std::find(level.clusters_of.begin(), level.clusters_of.end(), kNoCluster) == level.clusters_of.end())
-    return level;
-  walk.drop();
+  const auto leftovers =
+      static_cast<std::uint64_t>(std::count(level.clusters_of.begin(), level.clusters_of.end(), kNoCluster));
+  if (coarsest || leftovers == 0) return level;
+  // A tile that is kept need not be loaded again to look at neighbours; but it must not cost the coarser voxels their
+  // room.
+  std::uint64_t here_bytes = kept_bytes + sizeof(std::uint32_t) * level.clusters_of.size();
+  const std::uint64_t tile_bytes = walk.drop_features();
+  if (here_bytes + tile_bytes + leftovers * kCoarseBytes + kLeastCoarseBytes <= here.memory_bytes) {
+    here_bytes += tile_bytes;
+  } else {
+    walk.drop();
+  }
   // Half of what is left: the other half is for reading these voxels.
-  const std::uint64_t here_bytes = kept_bytes + sizeof(std::uint32_t) * level.clusters_of.size();
   const std::uint64_t left_bytes = here.memory_bytes > here_bytes ? here.memory_bytes - here_bytes : 0;
   const tiling::VoxelStore coarse = coarser_voxels(walk.store(), walk.tiles(), level.clusters_of, here.colours,
                                                    request.folder, left_bytes / 2, cancel);
@@ -75,17 +90,30 @@ class Stage {
     result_.shared.assign((result_.ids.size() + 63) / 64, 0);
     auto& pairs = result_.adjacency;
     walk_.for_each(false, [&](const LoadedTile& tile) {
-      for (std::size_t v = 0; v < tile.voxels.size(); ++v) {
-        if (tile.voxels.core[v] != 0) look_around(tile.voxels, v);
-      }
-      std::sort(pairs.begin(), pairs.end());
-      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+      std::mutex mutex;
+      parallel_for_chunks(tile.voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        Pairs found;
+        for (std::size_t v = begin; v < end; ++v) {
+          if (tile.voxels.core[v] != 0) look_around(tile.voxels, v, found);
+        }
+        make_unique(found);
+        const std::lock_guard lock(mutex);
+        pairs.insert(pairs.end(), found.begin(), found.end());
+      });
+      make_unique(pairs);
     });
     // Every supervoxel keeps at least the points of one voxel.
     for (const std::uint32_t rank : seed_ranks) result_.shared[rank >> 6] &= ~(std::uint64_t{1} << (rank & 63));
   }
 
-  void look_around(const VoxelTile& tile, std::size_t v) {
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+  static void make_unique(Pairs& pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  }
+
+  void look_around(const VoxelTile& tile, std::size_t v, Pairs& pairs) {
     const std::uint32_t rank = tile.ranks[v];
     const std::uint32_t id = result_.ids[rank];
     std::uint32_t last = id;
@@ -94,10 +122,13 @@ class Stage {
       const std::uint32_t other = result_.ids[tile.ranks[u]];
       if (other == id || other == last) continue;
       last = other;
-      if (request_.adjacency) result_.adjacency.emplace_back(std::min(id, other), std::max(id, other));
+      if (request_.adjacency) pairs.emplace_back(std::min(id, other), std::max(id, other));
       shared = shared || planes_differ(result_.planes[id], result_.planes[other], request_.walk.scale.voxel_steps);
     }
-    if (shared) result_.shared[rank >> 6] |= std::uint64_t{1} << (rank & 63);
+    if (!shared) return;
+    // Voxels of other chunks have bits in the same word.
+    std::atomic_ref<std::uint64_t>(result_.shared[rank >> 6])
+        .fetch_or(std::uint64_t{1} << (rank & 63), std::memory_order_relaxed);
   }
 
   const SupervoxelStageRequest& request_;

@@ -72,6 +72,15 @@ void VoxelTileWalk::for_each(bool with_features, const std::function<void(const 
   if (plan_.tiles.size() > 1) drop();
 }
 
+std::uint64_t VoxelTileWalk::drop_features() {
+  if (!loaded_) return 0;
+  loaded_->features = {};
+  release_free_memory();
+  const VoxelTile& tile = loaded_->voxels;
+  return tile.size() * (sizeof(LatticePoint) + sizeof(VoxelPosition) + 2 * sizeof(std::uint32_t) + 1) +
+         tile.colours.size() * sizeof(RawColour) + tile.neighbours.size() * sizeof(std::uint32_t);
+}
+
 void VoxelTileWalk::drop() {
   loaded_.reset();
   release_free_memory();

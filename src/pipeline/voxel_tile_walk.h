@@ -48,6 +48,8 @@ class VoxelTileWalk {
   /// Calls use(tile) for every tile.
   void for_each(bool with_features, const std::function<void(const LoadedTile&)>& use);
   void drop();  ///< Frees the tile that is kept, if any.
+  /// Frees its features only. Returns the bytes that stay in memory; 0 if no tile is kept.
+  std::uint64_t drop_features();
 
  private:
   const tiling::VoxelStore& store_;
