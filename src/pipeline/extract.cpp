@@ -41,7 +41,7 @@ std::unique_ptr<const LabelledScene> label_scene(io::InputSet& inputs, const Job
                     {}});
   merge::SupervoxelMoments moments(labelled->scene.clusters.count, kReachCells * plan.scale.seed_steps);
   const tiling::LatticeMapper mapper(inputs.sources(), plan.survey.lattice);
-  sum_moments(inputs, mapper, labelled->scene.labels(), moments, progress, cancel);
+  sum_moments(inputs, {mapper, labelled->scene.labels(), request.threads, progress, cancel}, moments);
   labelled->table = moments.table(labelled->scene.clusters.adjacency);
   labelled->scene.clusters.adjacency = {};
   return labelled;

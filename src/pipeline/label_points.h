@@ -14,14 +14,21 @@
 
 namespace arris::pipeline {
 
+/// What a pass works with; all must outlive it.
+struct LabelPass {
+  const tiling::LatticeMapper& mapper;
+  VoxelLabels labels;
+  int threads;  ///< Above 1: batches are used on a second thread while the next ones are read and labelled.
+  ProgressSink& progress;
+  const CancelToken& cancel;
+};
+
 /// Adds all points that take part to their supervoxels' moments.
-void sum_moments(io::InputSet& inputs, const tiling::LatticeMapper& mapper, VoxelLabels labels,
-                 merge::SupervoxelMoments& moments, ProgressSink& progress, const CancelToken& cancel);
+void sum_moments(io::InputSet& inputs, const LabelPass& pass, merge::SupervoxelMoments& moments);
 
 /// Writes every record with its label as one uint32 column (0: the point took no part). Does not commit. Returns the
 /// number of points.
-std::uint64_t write_labels(io::InputSet& inputs, const tiling::LatticeMapper& mapper, VoxelLabels labels,
-                           std::vector<std::unique_ptr<io::KeptPointWriter>>& writers, ProgressSink& progress,
-                           const CancelToken& cancel);
+std::uint64_t write_labels(io::InputSet& inputs, const LabelPass& pass,
+                           std::vector<std::unique_ptr<io::KeptPointWriter>>& writers);
 
 }  // namespace arris::pipeline

@@ -70,16 +70,16 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   watch.lap("supervoxels");
 
   const tiling::LatticeMapper mapper(inputs.sources(), survey.lattice);
-  const VoxelLabels labels = scene.labels();
+  const LabelPass pass{mapper, scene.labels(), request.threads, sink, cancel};
   if (!request.table.empty()) {
     merge::SupervoxelMoments moments(clusters.count, kReachCells * scale.seed_steps);
-    sum_moments(inputs, mapper, labels, moments, sink, cancel);
+    sum_moments(inputs, pass, moments);
     write_supervoxel_table(request.table, moments.table(clusters.adjacency), moments, survey.lattice,
                            request.overwrite);
     watch.lap("table");
   }
   if (!request.adjacency.empty()) write_adjacency(request.adjacency, clusters.adjacency, request.overwrite);
-  report.points_out = write_labels(inputs, mapper, labels, writers, sink, cancel);
+  report.points_out = write_labels(inputs, pass, writers);
   commit_writers(writers, inputs, sink);
   watch.lap("write");
   hash_inputs(request, report);
