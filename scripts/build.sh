@@ -7,6 +7,7 @@ preset=${1:-release}
 [ $# -eq 0 ] || shift
 scripts/install.sh
 launcher=()
+export CCACHE_SLOPPINESS=pch_defines,time_macros  # Else ccache refuses what includes a precompiled header.
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 cmake --preset "$preset" "${launcher[@]}" "$@" >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
 rm -f build-configure.log

@@ -8,10 +8,12 @@
 /// operations are used, all exactly defined by IEEE 754; sums over lanes are either exact or made in an order that the
 /// width does not touch.
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 
 #if defined(__GNUC__)
@@ -133,7 +135,8 @@ ARRIS_ALWAYS_INLINE V where_at_most(const V& a, const W& b) {
   return 1.0 - where_above(a, b);
 }
 
-/// What the processor offers: 64 with AVX-512, 32 with AVX2, else 16. ARRIS_KERNEL_BYTES, for tests, asks for less.
+/// What the processor offers: 64 with AVX-512, 32 with AVX2, else 16. The environment's ARRIS_KERNEL_BYTES (16 or 32),
+/// for tests, asks for less.
 inline int widest_bytes() {
 #if ARRIS_X86_KERNELS
   static const int bytes = [] {
@@ -143,11 +146,8 @@ inline int widest_bytes() {
                     __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
                     __builtin_cpu_supports("avx512vl");
     const int widest = v4 ? 64 : v3 ? 32 : 16;
-#if defined(ARRIS_KERNEL_BYTES)
-    return widest < ARRIS_KERNEL_BYTES ? widest : ARRIS_KERNEL_BYTES;
-#else
-    return widest;
-#endif
+    const char* asked = std::getenv("ARRIS_KERNEL_BYTES");
+    return asked == nullptr ? widest : std::min(widest, std::atoi(asked));
   }();
   return bytes;
 #else

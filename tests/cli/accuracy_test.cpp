@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "accuracy_runs.h"
+#include "support/sanitizers.h"
 
 namespace arris::test {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 class BlockFolds : public ::testing::TestWithParam<Promise> {};
 
 TEST_P(BlockFolds, Defaults_KeepThePromise) {
+  ARRIS_SKIP_UNDER_SANITIZERS;
   EXPECT_GE(block_folds_f1(GetParam()), GetParam().least_f1);
 }
 
@@ -29,6 +31,7 @@ INSTANTIATE_TEST_SUITE_P(Arris, BlockFolds,
 class PlatesBoundary : public ::testing::TestWithParam<Promise> {};
 
 TEST_P(PlatesBoundary, Defaults_KeepThePromise) {
+  ARRIS_SKIP_UNDER_SANITIZERS;
   EXPECT_GE(plates_boundary_f1(GetParam()), GetParam().least_f1);
 }
 
@@ -51,6 +54,7 @@ TEST(Accuracy, LayersTwoSpacingsApart_KeepTheirBorders) {
 }
 
 TEST(Accuracy, ScannedTown_WhatIsFoundIsRight) {
+  ARRIS_SKIP_UNDER_SANITIZERS;
   const Accuracy found = accuracy("arris", {"town", "--points", "300000", "--noise", "2mm"}, {"--local-spacing"});
   EXPECT_GE(found.precision, 0.92);
   EXPECT_GE(found.f1, 0.62);

@@ -15,6 +15,7 @@
 
 #include "support/arris_process.h"
 #include "support/las_tools.h"
+#include "support/sanitizers.h"
 #include "support/temp_folder.h"
 
 namespace arris::test {
@@ -258,6 +259,7 @@ TEST(Behaviour, ConfigFile_SetsOptionsAndTheCommandLineWins) {
 }
 
 TEST(Behaviour, Thin_KeepsAChainOutOfTheContourPoints) {
+  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
   const TempFolder folder;
   ASSERT_EQ(
       run_arris({"synth", "gable", "--noise", "0.02", "-o", folder / "in.las", "--truth", folder / "t.csv"}).exit_code,

@@ -2,6 +2,7 @@
 
 #include "support/arris_process.h"
 #include "support/las_tools.h"
+#include "support/sanitizers.h"
 #include "support/temp_folder.h"
 
 namespace arris::test {
@@ -37,6 +38,7 @@ struct Excluded {
 class Exclusion : public ::testing::TestWithParam<Excluded> {};
 
 TEST_P(Exclusion, ExcludedPoints_TakeNoPartButAreWritten) {
+  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
   const TempFolder folder;
   write_las(folder / "plain.las", square_with_wall(false), 0.01);
   write_las(folder / "wall.las", square_with_wall(true), 0.01);

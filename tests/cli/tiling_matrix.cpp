@@ -9,16 +9,14 @@
 
 #include "support/arris_process.h"
 #include "support/las_tools.h"
+#include "support/sanitizers.h"
 #include "support/temp_folder.h"
 
 namespace arris::test {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-const std::string kSmallBudget = "768MiB";  // AddressSanitizer's own memory counts as resident.
-#else
-const std::string kSmallBudget = "256MiB";
-#endif
+// AddressSanitizer's own memory counts as resident.
+const std::string kSmallBudget = kAddressSanitizer ? "768MiB" : "256MiB";
 
 }  // namespace
 
@@ -35,11 +33,13 @@ std::vector<TilingCase> whole_matrix() {
 }
 
 std::vector<TilingCase> small_matrix() {
+  if (kAddressSanitizer || kThreadSanitizer) return least_matrix();
   return {{"none", 1, "", false},        {"20000", 2, "256MiB", true}, {"20000", 4, "1GiB", false},
           {"100000", 1, "256MiB", true}, {"100000", 2, "", false},     {"1000000", 4, "1GiB", true}};
 }
 
 std::vector<TilingCase> least_matrix() {
+  if (kThreadSanitizer) return {{"20000", 4, "256MiB", true}, {"100000", 2, "1GiB", false}};
   return {{"none", 1, "", false}, {"20000", 2, "256MiB", true}, {"100000", 4, "1GiB", false}};
 }
 
@@ -80,7 +80,8 @@ void expect_same_bytes(const std::filesystem::path& scan, const std::vector<Tili
 
 void synth_scan(const std::filesystem::path& path, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "synth");
-  arguments.insert(arguments.end(), {"-o", path, "--truth", path.string() + ".truth.csv", "--overwrite", "-q"});
+  arguments.insert(arguments.end(),
+                   {"-o", path, "--truth", path.string() + ".truth.csv", "--truth-of", "model", "--overwrite", "-q"});
   const ProcessResult made = run_arris(arguments);
   ASSERT_EQ(made.exit_code, 0) << made.err;
   std::filesystem::remove(path.string() + ".truth.csv");
@@ -88,12 +89,12 @@ void synth_scan(const std::filesystem::path& path, std::vector<std::string> argu
 
 void write_spray(const std::filesystem::path& path) {
   std::vector<std::array<std::int32_t, 3>> points;
-  for (std::int32_t x = 0; x < 220; ++x) {
-    for (std::int32_t y = 0; y < 220; ++y) points.push_back({x * 10, y * 10, (x + y) % 3});
+  for (std::int32_t x = 0; x < 140; ++x) {
+    for (std::int32_t y = 0; y < 140; ++y) points.push_back({x * 10, y * 10, (x + y) % 3});
   }
   std::uint32_t random = 1;
   const auto next = [&] { return static_cast<std::int32_t>((random = random * 1664525U + 1013904223U) >> 20); };
-  for (int i = 0; i < 600; ++i) points.push_back({next() % 2200, next() % 2200, 40 + next() % 400});
+  for (int i = 0; i < 250; ++i) points.push_back({next() % 1400, next() % 1400, 40 + next() % 400});
   write_las(path, points);
 }
 

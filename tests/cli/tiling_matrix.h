@@ -17,9 +17,9 @@ struct TilingCase {
 /// Every combination of caps {20 000, 100 000, 1 000 000, none}, threads {1, 2, 4}, budgets {256 MiB, 1 GiB, default},
 /// splits.
 std::vector<TilingCase> whole_matrix();
-/// Each value of each dimension at least twice.
+/// Each value of each dimension at least twice (under sanitizers: the least).
 std::vector<TilingCase> small_matrix();
-/// One run untiled, one with everything different, one between.
+/// One run untiled, one with everything different, one between (under ThreadSanitizer: two of many tiles and threads).
 std::vector<TilingCase> least_matrix();
 
 /// Runs extract for every case and expects one and the same output, with contour points in it. `caps_divisor` makes

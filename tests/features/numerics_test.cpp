@@ -251,7 +251,9 @@ TEST(PlanarDiameter, RandomSets_AgreeWithAllPairs) {
     Diameter expected;
     for (std::size_t a = 0; a < sorted.size(); ++a) {
       for (std::size_t b = a + 1; b < sorted.size(); ++b) {
-        const double length2 = std::pow(sorted[a].x - sorted[b].x, 2) + std::pow(sorted[a].y - sorted[b].y, 2);
+        const double dx = sorted[a].x - sorted[b].x;
+        const double dy = sorted[a].y - sorted[b].y;
+        const double length2 = dx * dx + dy * dy;
         if (length2 > expected.length2) expected = {sorted[a], sorted[b], length2};
       }
     }
