@@ -13,6 +13,7 @@
 #include "evaluate/contour_evaluation.h"
 #include "evaluate/evaluation_text.h"
 #include "evaluate/label_comparison.h"
+#include "evaluate_segments.h"
 #include "io/attribute_reader.h"
 #include "io/point_source.h"
 
@@ -31,6 +32,7 @@ struct EvaluateOptions {
   bool forgive = false;
   bool json = false;
   bool csv = false;
+  SegmentsOptions segments;
 };
 
 double world(const io::PointBatch& batch, const io::SourceInfo& info, int axis, std::size_t i) {
@@ -86,7 +88,14 @@ void add_input(const std::string& path, evaluate::InputCoverage& coverage, evalu
   }
 }
 
-int run_evaluate(const EvaluateOptions& o) {
+int run_evaluate(const EvaluateOptions& o, Session& session) {
+  if (!o.segments.truth.empty()) {
+    const ResultFormat format = o.json ? ResultFormat::kJson : o.csv ? ResultFormat::kCsv : ResultFormat::kTable;
+    return evaluate_segments(o.prediction, o.segments, o.spacing, format, session);
+  }
+  if (o.truth.empty()) {
+    throw ConfigError("nothing to compare with: give --truth T.csv for contour points, or --labels CLOUD for segments");
+  }
   const evaluate::Truth truth = evaluate::read_truth_csv(std::filesystem::path(o.truth));
   evaluate::EvaluationOptions options;
   options.kinds = evaluate::parse_kinds(o.edges);
@@ -123,30 +132,37 @@ int run_evaluate(const EvaluateOptions& o) {
 
 void add_evaluate(CLI::App& app, Session& session) {
   auto o = std::make_shared<EvaluateOptions>();
-  CLI::App* verb = app.add_subcommand("evaluate", "Judge contour points against a scene's truth");
-  verb->add_option("prediction", o->prediction, "Contour points (output of extract), or any cloud")->required();
-  verb->add_option("--truth", o->truth, "Truth of the scene (CSV of synth)")->required();
-  verb->add_option(
+  CLI::App* verb = app.add_subcommand("evaluate", "Judge contour points, supervoxels or segments against the truth");
+  verb->add_option("prediction", o->prediction,
+                   "Contour points (output of extract), supervoxels or segments, or any cloud")
+      ->required();
+  CLI::Option* truth = verb->add_option("--truth", o->truth, "Judge contour points: edges of the scene (CSV of synth)");
+  const auto contours = [truth](CLI::Option* option) { return option->needs(truth); };
+  contours(verb->add_option(
       "--input", o->input,
       "The scan itself: prints the recall that a perfect detector could reach on it, and how the labels of its "
-      "points agree with the truth");
-  verb->add_option("--edges", o->edges, "Truth that counts: all, folds, boundaries, or kinds joined by commas")
+      "points agree with the truth"));
+  contours(
+      verb->add_option("--edges", o->edges, "Truth that counts: all, folds, boundaries, or kinds joined by commas"))
       ->capture_default_str();
-  verb->add_option("--classes", o->classes, "Predictions that count")
+  contours(verb->add_option("--classes", o->classes, "Predictions that count"))
       ->check(CLI::IsMember({"all", "fold", "boundary", "strong-boundary"}))
       ->capture_default_str();
-  verb->add_option("--spacing", o->spacing, "Point spacing (length; default: the truth's)");
-  verb->add_flag(
-          "--local-spacing{mean}", o->local_spacing,
-          "Tolerances are multiples of each edge's own spacing in the truth; =max: of that in the coarser direction")
+  verb->add_option("--spacing", o->spacing,
+                   "Point spacing (length; default: the truth's, with --labels an estimate from the points)");
+  contours(
+      verb->add_flag("--local-spacing{mean}", o->local_spacing,
+                     "Tolerances are multiples of each edge's own spacing in the truth; =max: of that in the coarser "
+                     "direction"))
       ->check(CLI::IsMember({"mean", "max"}));
-  verb->add_option("--min-score", o->min_score, "Predictions with a lower EdgeScore do not count");
-  verb->add_option("--noise", o->noise, "Noise (length; default: the truth's)");
-  verb->add_flag("--forgive-other-kinds", o->forgive,
-                 "Predictions near truth that does not count are left out instead of called false");
+  contours(verb->add_option("--min-score", o->min_score, "Predictions with a lower EdgeScore do not count"));
+  contours(verb->add_option("--noise", o->noise, "Noise (length; default: the truth's)"));
+  contours(verb->add_flag("--forgive-other-kinds", o->forgive,
+                          "Predictions near truth that does not count are left out instead of called false"));
+  add_segments_options(*verb, o->segments)->excludes(truth);
   CLI::Option* json = verb->add_flag("--json", o->json, "As JSON");
   verb->add_flag("--csv", o->csv, "As CSV, a line per tolerance")->excludes(json);
-  verb->callback([o, &session] { session.run = [o] { return run_evaluate(*o); }; });
+  verb->callback([o, &session] { session.run = [o, &session] { return run_evaluate(*o, session); }; });
 }
 
 }  // namespace arris::tools

@@ -28,16 +28,23 @@ std::string percent(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? "0 %" : fmt::format("{:.2f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 
-std::string describe_choices(const pipeline::ExtractReport& r, const std::string& memory_why) {
-  std::string ball = "5 to 13 local spacings";
-  if (r.parameters.method == ContourParameters::Method::kLiu) {
-    const LiuParameters& liu = r.parameters.liu;
-    ball = liu.radius > 0.0 ? fmt::format("{:.6g}", liu.radius) : fmt::format("{:g} local spacings", liu.radius_factor);
+/// What sets the scale of the chosen method.
+std::string describe_scale(const pipeline::ExtractReport& r) {
+  const ContourParameters& p = r.parameters;
+  if (p.method == ContourParameters::Method::kArris) return "ball radius 5 to 13 local spacings";
+  if (p.method == ContourParameters::Method::kZheng) {
+    return fmt::format("voxels {:.4g}, seeds {:.4g}, {} supervoxels", p.supervoxel.voxel, p.supervoxel.seed,
+                       grouped(r.supervoxels));
   }
+  return p.liu.radius > 0.0 ? fmt::format("ball radius {:.6g}", p.liu.radius)
+                            : fmt::format("ball radius {:g} local spacings", p.liu.radius_factor);
+}
+
+std::string describe_choices(const pipeline::ExtractReport& r, const std::string& memory_why) {
   return fmt::format(
-      "method {}, spacing about {:.4g}, ball radius {}, search limit {:.4g}; lattice step {:g}\n"
+      "method {}, spacing about {:.4g}, {}, search limit {:.4g}; lattice step {:g}\n"
       "memory {} ({}), {} threads; {} tiles of at most {} points, halo {:.3g} to {:.3g}",
-      r.parameters.name(), r.spacing, ball, r.parameters.max_radius(), r.lattice.step,
+      r.parameters.name(), r.spacing, describe_scale(r), r.parameters.max_radius(), r.lattice.step,
       human_bytes(r.memory_budget_bytes), memory_why, r.threads, grouped(r.tiles), grouped(r.tile_points_limit),
       r.least_halo, r.widest_halo);
 }
@@ -62,10 +69,10 @@ int run_extract(ExtractOptions& o, const CLI::App& verb, Session& session) {
   request.mixed_crs = o.mixed_crs;
   request.refined = o.refined;
   request.hash_inputs = !o.report.empty();
-  ProgressDisplay display(o.job.display.mode(), o.job.display.verbosity());
+  ProgressDisplay display(o.job.run.display.mode(), o.job.run.display.verbosity());
   const pipeline::ExtractReport report = pipeline::extract(request, display, session.cancel);
   display.finish();
-  display.note(describe_choices(report, o.job.memory_why));
+  display.note(describe_choices(report, o.job.run.memory_why));
   display.note(describe_result(report));
   if (!o.report.empty()) write_text(o.report, to_json(report).dump(2) + "\n", o.overwrite);
   return 0;
@@ -96,10 +103,10 @@ std::string describe_plan(const pipeline::ExtractReport& r, const std::string& m
 
 int run_plan(ExtractOptions& o, const CLI::App& verb, Session& session) {
   const pipeline::ExtractRequest request = to_request(o.job, verb);
-  ProgressDisplay display(o.job.display.mode(), o.job.display.verbosity());
+  ProgressDisplay display(o.job.run.display.mode(), o.job.run.display.verbosity());
   const pipeline::ExtractReport report = pipeline::plan_only(request, display, session.cancel);
   display.finish();
-  write_text("-", o.json ? to_json(report).dump(2) + "\n" : describe_plan(report, o.job.memory_why), false);
+  write_text("-", o.json ? to_json(report).dump(2) + "\n" : describe_plan(report, o.job.run.memory_why), false);
   return 0;
 }
 

@@ -13,6 +13,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "evaluate/segmentation_comparison.h"
 #include "evaluate/truth.h"
 #include "io/point_writer.h"
 #include "synth/scene.h"
@@ -29,6 +30,7 @@ struct SynthOptions {
   std::vector<double> shift;
   std::vector<std::string> options;
   int threads = 0;
+  bool labels = false;
   bool overwrite = false;
   DisplayOptions display;
 };
@@ -77,6 +79,7 @@ int run_synth(SynthOptions& o, Session& session) {
   cloud.scale = o.scale.empty() ? choose_scale(scene, o.request.noise) : parse_length(o.scale);
   for (int axis = 0; axis < 3; ++axis) cloud.offset[axis] = std::floor(scene.bounds()[0][axis]);
   cloud.generator = "arris synth";
+  if (o.labels) cloud.label = ColumnSpec{std::string(evaluate::kFaceColumn), ColumnType::kUint32, "surface; 0: none"};
 
   const ThreadLimit limit(resolve_threads(o.threads));
   ProgressDisplay display(o.display.mode(), o.display.verbosity());
@@ -116,6 +119,8 @@ void add_synth(CLI::App& app, Session& session) {
                    "all edges of the model")
       ->check(CLI::IsMember({"scan", "model"}))
       ->capture_default_str();
+  verb->add_flag("--labels", o->labels,
+                 "Write the number of the surface that each point lies on as well, as column FaceId (0: none)");
   verb->add_option("--points", o->request.points, "About so many points (instead of --spacing)");
   verb->add_option("--spacing", o->spacing, "Point spacing (length)");
   verb->add_option("--noise", o->noise, "Standard deviation of the noise (length); scanned scenes: along the ray");

@@ -64,10 +64,27 @@ void add_liu_options(CLI::App& verb, JobOptions& o) {
       ->capture_default_str();
 }
 
+void add_zheng_options(CLI::App& verb, JobOptions& o) {
+  const char* group = "Method zheng: contours";
+  verb.add_flag("--improved", o.zheng.improved, "Beyond the paper: steps, local spacing, seams healed")->group(group);
+  verb.add_option("--plane-angle", o.zheng.angle_deg,
+                  "Supervoxels whose normals are further apart are not coplanar, degrees (2.2)")
+      ->group(group)
+      ->capture_default_str();
+  verb.add_option("--contact-cap", o.contact_cap, "Mutual nearest neighbours are no further apart (length; 3 spacings)")
+      ->group(group);
+  verb.add_option("--alpha-radius", o.alpha_radius, "Radius of the alpha shape (length; 2 spacings)")->group(group);
+  verb.add_option("--seam-distance", o.seam_distance,
+                  "Border points this near to an adjacent supervoxel are seams (length; 1.8 spacings)")
+      ->group(group);
+  add_supervoxel_options(verb, o.supervoxel, "Method zheng: supervoxels");
+}
+
 void add_contour_options(CLI::App& verb, JobOptions& o) {
   const char* group = "Contours";
-  verb.add_option("--method", o.method, "arris: the default, nothing to set; liu: Liu et al. as published")
-      ->check(CLI::IsMember({"arris", "liu"}))
+  verb.add_option("--method", o.method,
+                  "arris: the default, nothing to set; liu: Liu et al.; zheng: Zheng et al., by supervoxels")
+      ->check(CLI::IsMember({"arris", "liu", "zheng"}))
       ->group(group)
       ->capture_default_str();
   verb.add_option("--spacing", o.spacing, "One point spacing for all points (length); estimated per point if not given")
@@ -106,26 +123,6 @@ void parse_viewpoint(const std::string& text, ArrisParameters& arris) {
   }
 }
 
-std::uint64_t parse_tile_points(const std::string& text) {
-  if (text == "none") return 0;
-  std::uint64_t points = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), points);
-  if (error != std::errc{} || end != text.data() + text.size() || points == 0) {
-    throw ConfigError("--tile-points '" + printable(text, 40) + "' is neither a positive number nor 'none'");
-  }
-  return points;
-}
-
-io::PointExclusion parse_exclusion(const JobOptions& o) {
-  io::PointExclusion exclusion;
-  for (const std::string& name : o.exclude) {
-    const unsigned bit = name == "synthetic" ? 1U : name == "key-point" ? 2U : name == "withheld" ? 4U : 8U;
-    exclusion.flags = static_cast<std::uint8_t>(exclusion.flags | bit);
-  }
-  for (const int label : o.exclude_classes) exclusion.classes.set(static_cast<std::size_t>(label));
-  return exclusion;
-}
-
 /// An option of another method has no effect: better an error than a surprise.
 void refuse_foreign_options(const std::string& method, const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options()) {
@@ -135,56 +132,26 @@ void refuse_foreign_options(const std::string& method, const CLI::App& verb) {
       throw ConfigError(option->get_name() + " belongs to another method than " + method + "; see --method");
     }
   }
-}
-
-double length_or(const std::string& text, double otherwise) {
-  return text.empty() ? otherwise : parse_length(text);
+  if (method == "zheng" && verb.count("--max-radius") > 0)
+    throw ConfigError("--max-radius has no effect on method zheng; see --contact-cap and --alpha-radius");
 }
 
 }  // namespace
 
 void add_job_options(CLI::App& verb, JobOptions& o) {
-  verb.add_option("inputs", o.inputs, "LAS and PLY files, or folders of them; one input, in this order")->required();
-  add_tolerance_options(verb, o.tolerance);
-  verb.add_option("--exclude", o.exclude,
-                  "LAS points with these flags take no part: withheld, overlap, synthetic, key-point")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::IsMember({"withheld", "overlap", "synthetic", "key-point"}));
-  verb.add_option("--exclude-class", o.exclude_classes, "LAS points of these classes take no part (7,18 is noise)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::Range(0, 255));
-  verb.add_option("--memory", o.memory,
-                  "Bound on the memory of the whole process: 8GiB, 512MiB, 60% (default 75% of what there is)");
-  verb.add_option("--threads", o.threads, "Threads; 0 for all")->capture_default_str();
-  verb.add_option("--temp-dir", o.temp_dir, "Folder for temporary files (default $TMPDIR or /tmp)");
-  verb.add_option("--max-temp", o.max_temp, "Bound on temporary files: 100GiB, 50% of what is free");
-  verb.add_option("--tile-points", o.tile_points, "For tests and tuning: most points per tile, or none")
-      ->capture_default_str();
-  verb.add_option("--lattice", o.lattice, "Step of the analysis lattice (length; default: the LAS scale, else 0.0001)");
-  verb.add_option("--config",
-                  "Read options from a TOML or INI file; those on the command line win");  // See config_file.h.
+  add_run_options(verb, o.run);
   add_contour_options(verb, o);
   add_liu_options(verb, o);
-  add_display_options(verb, o.display);
+  add_zheng_options(verb, o);
 }
 
 pipeline::ExtractRequest to_request(JobOptions& o, const CLI::App& verb) {
   pipeline::ExtractRequest request;
-  request.inputs = o.inputs;
-  request.tolerance = o.tolerance.tolerance();
-  request.exclusion = parse_exclusion(o);
-  request.memory_bytes = resolve_memory(o.memory, o.memory_why);
-  request.threads = resolve_threads(o.threads);
-  request.temp_dir = o.temp_dir.empty() ? std::filesystem::temp_directory_path() : std::filesystem::path(o.temp_dir);
-  if (!o.max_temp.empty()) {
-    request.max_temp_bytes = parse_size_bytes(o.max_temp, std::filesystem::space(request.temp_dir).available);
-  }
-  request.tile_points_cap = parse_tile_points(o.tile_points);
-  request.lattice_step = length_or(o.lattice, 0.0);
+  fill_run_request(o.run, request);
 
-  request.method.method = o.method == "liu" ? ContourParameters::Method::kLiu : ContourParameters::Method::kArris;
+  request.method.method = o.method == "liu"     ? ContourParameters::Method::kLiu
+                          : o.method == "zheng" ? ContourParameters::Method::kZheng
+                                                : ContourParameters::Method::kArris;
   ArrisParameters& arris = request.method.arris;
   arris.spacing = length_or(o.spacing, 0.0);
   arris.max_radius = length_or(o.max_radius, 0.0);
@@ -208,6 +175,15 @@ pipeline::ExtractRequest to_request(JobOptions& o, const CLI::App& verb) {
   liu.noise = length_or(o.noise, 0.0);
   liu.boundary = !o.no_boundary;
   liu.fold = !o.no_fold;
+  ZhengParameters& zheng = request.method.zheng;
+  zheng = o.zheng;
+  zheng.spacing = length_or(o.spacing, 0.0);
+  zheng.contact_cap = length_or(o.contact_cap, 0.0);
+  zheng.alpha = length_or(o.alpha_radius, 0.0);
+  zheng.seam_distance = length_or(o.seam_distance, 0.0);
+  zheng.boundary = !o.no_boundary;
+  zheng.fold = !o.no_fold;
+  request.method.supervoxel = to_parameters(o.supervoxel);
   return request;
 }
 

@@ -2,10 +2,10 @@
 /// @file Options of the verbs that run or plan a job.
 
 #include <string>
-#include <vector>
 
-#include "common_options.h"
 #include "pipeline/extract.h"
+#include "run_options.h"
+#include "supervoxel_options.h"
 
 namespace CLI {
 class App;
@@ -15,14 +15,8 @@ namespace arris::tools {
 
 /// As typed; to_request() turns it into a checked request.
 struct JobOptions {
-  std::vector<std::string> inputs;
-  std::string memory;
-  int threads = 0;
-  std::string temp_dir;
-  std::string max_temp;
-  std::string tile_points = "none";
+  RunOptions run;
   std::string method = "arris";
-  std::string lattice;
   LiuParameters liu;
   std::string span = "bracket";
   std::string emit = "emit";
@@ -32,13 +26,11 @@ struct JobOptions {
   std::string radius, cf1, far_distance, spacing, max_radius, noise;  // Lengths with units.
   bool literal = false;
   bool neighbours_only = false;
+  ZhengParameters zheng;
+  std::string alpha_radius, contact_cap, seam_distance;  // Lengths with units.
+  SupervoxelOptions supervoxel;
   bool no_boundary = false;
   bool no_fold = false;
-  ToleranceOptions tolerance;
-  std::vector<std::string> exclude;
-  std::vector<int> exclude_classes;
-  DisplayOptions display;
-  std::string memory_why;
 };
 
 void add_job_options(CLI::App& verb, JobOptions& options);

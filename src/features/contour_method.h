@@ -9,30 +9,36 @@
 #include "core/tile_points.h"
 #include "features/arris_parameters.h"
 #include "features/liu_parameters.h"
+#include "features/supervoxel_parameters.h"
 #include "features/tile_contours.h"
+#include "features/zheng_method.h"
 
 namespace arris {
 
 /// Which method, and the parameters of all; those of the others have no effect.
 struct ContourParameters {
-  enum class Method : std::uint8_t { kArris, kLiu } method = Method::kArris;
+  enum class Method : std::uint8_t { kArris, kLiu, kZheng } method = Method::kArris;
   ArrisParameters arris;
   LiuParameters liu;
+  ZhengParameters zheng;
+  SupervoxelParameters supervoxel;  ///< Of kZheng.
 
-  std::string_view name() const { return method == Method::kArris ? "arris" : "liu"; }
-  double spacing() const { return method == Method::kArris ? arris.spacing : liu.spacing; }
-  double max_radius() const { return method == Method::kArris ? arris.max_radius : liu.max_radius; }
-  void set_max_radius(double radius) { (method == Method::kArris ? arris.max_radius : liu.max_radius) = radius; }
+  std::string_view name() const;
+  double spacing() const;
+  /// R_max; kZheng: its halo, which is the support of every query.
+  double max_radius() const;
+  void set_max_radius(double radius);
   /// Radius that the user has fixed for all balls, 0 if none: R_max must not be smaller.
-  double fixed_radius() const { return method == Method::kArris ? 0.0 : liu.radius; }
+  double fixed_radius() const { return method == Method::kLiu ? liu.radius : 0.0; }
   /// False if every test is switched off: then no point is a contour point.
-  bool any_test() const { return method == Method::kArris ? arris.boundary || arris.fold : liu.boundary || liu.fold; }
+  bool any_test() const;
+  bool by_supervoxels() const { return method == Method::kZheng; }
 };
 
 /// Throws ConfigError, naming the option, if a value of the chosen method is out of range.
 void validate(const ContourParameters& parameters);
 
-/// See extract_arris and extract_liu.
+/// See extract_arris and extract_liu. Not for methods by supervoxels, which need labels: see extract_zheng.
 TileContours extract_contours(const TilePoints& tile, const Lattice& lattice, const ContourParameters& parameters);
 TileContours extract_contours(const TilePoints& tile, const Lattice& lattice, const ContourParameters& parameters,
                               std::span<const std::uint32_t> queries);

@@ -9,7 +9,23 @@ Vector3 scaled(const Vector3& v, double by) {
   return {v[0] * by, v[1] * by, v[2] * by};
 }
 
-/// Unit vector in the kernel of a - value * I, where `value` is well apart from the other two.
+/// A unit vector at right angles to the unit vector w.
+Vector3 any_perpendicular(const Vector3& w) {
+  if (std::fabs(w[0]) > std::fabs(w[1])) {
+    const double inverse = 1.0 / std::sqrt(w[0] * w[0] + w[2] * w[2]);
+    return {-w[2] * inverse, 0.0, w[0] * inverse};
+  }
+  const double inverse = 1.0 / std::sqrt(w[1] * w[1] + w[2] * w[2]);
+  return {0.0, w[2] * inverse, -w[1] * inverse};
+}
+
+Vector3 product(const SymmetricMatrix<double>& a, const Vector3& v) {
+  return {a.xx * v[0] + a.xy * v[1] + a.xz * v[2], a.xy * v[0] + a.yy * v[1] + a.yz * v[2],
+          a.xz * v[0] + a.yz * v[1] + a.zz * v[2]};
+}
+
+}  // namespace
+
 Vector3 kernel_vector(const SymmetricMatrix<double>& a, double value) {
   const Vector3 r0{a.xx - value, a.xy, a.xz};
   const Vector3 r1{a.xy, a.yy - value, a.yz};
@@ -27,23 +43,6 @@ Vector3 kernel_vector(const SymmetricMatrix<double>& a, double value) {
   if (!(best_norm2 > 0.0)) return {1.0, 0.0, 0.0};
   return scaled(best, 1.0 / std::sqrt(best_norm2));
 }
-
-/// A unit vector at right angles to the unit vector w.
-Vector3 any_perpendicular(const Vector3& w) {
-  if (std::fabs(w[0]) > std::fabs(w[1])) {
-    const double inverse = 1.0 / std::sqrt(w[0] * w[0] + w[2] * w[2]);
-    return {-w[2] * inverse, 0.0, w[0] * inverse};
-  }
-  const double inverse = 1.0 / std::sqrt(w[1] * w[1] + w[2] * w[2]);
-  return {0.0, w[2] * inverse, -w[1] * inverse};
-}
-
-Vector3 product(const SymmetricMatrix<double>& a, const Vector3& v) {
-  return {a.xx * v[0] + a.xy * v[1] + a.xz * v[2], a.xy * v[0] + a.yy * v[1] + a.yz * v[2],
-          a.xz * v[0] + a.yz * v[1] + a.zz * v[2]};
-}
-
-}  // namespace
 
 PrincipalFrame principal_frame(const SymmetricMatrix<double>& a, const Eigenvalues<double>& values) {
   PrincipalFrame frame;

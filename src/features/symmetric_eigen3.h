@@ -68,6 +68,10 @@ inline Vector3 cross(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+/// Unit vector in the kernel of a - value * I, where `value` is well apart from the other two eigenvalues; (1, 0, 0)
+/// where none of it is determined.
+Vector3 kernel_vector(const SymmetricMatrix<double>& a, double value);
+
 /// Principal frame: e1, e2, e3 belong to the values in descending order; e3 = e1 x e2. Signs follow from the entries by
 /// a fixed rule; nothing may depend on them.
 struct PrincipalFrame {

@@ -2,19 +2,19 @@
 
 #include <array>
 #include <optional>
+#include <variant>
 
 #include "core/error.h"
 #include "io/bytes.h"
 #include "io/input_file.h"
 #include "io/las_extra_bytes.h"
+#include "io/las_fields.h"
 #include "io/las_file.h"
 #include "io/ply_header.h"
 #include "io/ply_record.h"
 
 namespace arris::io {
 namespace {
-
-constexpr std::size_t kLasIntensityOffset = 12;
 
 constexpr bool is_scalar_type(std::uint8_t type) {
   return type >= 1 && type <= 10;
@@ -27,15 +27,19 @@ struct AttributeReader::Impl {
     std::size_t offset;
     ScalarType type;
   };
-  std::vector<std::optional<Field>> las;                  ///< Per name, LAS only.
+  /// A field of the point format, possibly a part of a byte, or an extra attribute.
+  using LasValue = std::variant<LasField, Field>;
+  std::vector<std::optional<LasValue>> las;               ///< Per name, LAS only.
   std::vector<std::unique_ptr<PlyRecordWalker>> walkers;  ///< Per name, PLY only; null if absent.
 
   void open_las(const InputFile& file, const std::vector<std::string>& names) {
     const LasFile structure = read_las_file(file);
     const ExtraBytes extra = read_extra_bytes(file, structure);
     for (const std::string& name : names) {
-      std::optional<Field> field;
-      if (name == "intensity") field = Field{kLasIntensityOffset, ScalarType::kUint16};
+      std::optional<LasValue> field;
+      for (const LasField& known : las_fields(structure.header.point_format)) {
+        if (known.name == name) field = known;
+      }
       for (const ExtraAttribute& attribute : extra.attributes) {
         if (attribute.name == name && is_scalar_type(attribute.type))
           field = Field{attribute.offset, attribute.part_type()};
@@ -81,8 +85,13 @@ void AttributeReader::read(const PointBatch& batch, std::size_t index, std::vect
     const std::span<const std::byte> record(batch.records.data() + batch.record_begin[i],
                                             batch.record_begin[i + 1] - batch.record_begin[i]);
     if (!impl_->las.empty()) {
-      const Impl::Field& field = *impl_->las[index];
-      values[i] = load_scalar(field.type, record.data() + field.offset);
+      const Impl::LasValue& value = *impl_->las[index];
+      if (const auto* field = std::get_if<LasField>(&value)) {
+        values[i] = load_field(*field, record.data());
+      } else {
+        const auto& extra = std::get<Impl::Field>(value);
+        values[i] = load_scalar(extra.type, record.data() + extra.offset);
+      }
       continue;
     }
     PlyRecordWalker& walker = *impl_->walkers[index];

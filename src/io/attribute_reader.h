@@ -10,7 +10,7 @@
 
 namespace arris::io {
 
-/// Reads scalar attributes as double: LAS "intensity" and extra bytes of scalar type, PLY scalar properties (also under
+/// Reads scalar attributes as double: LAS fields by the names of las_fields.h ("intensity", "red", ...) and extra bytes of scalar type, PLY scalar properties (also under
 /// the name "scalar_<name>" that CloudCompare gives them). Not thread-safe.
 class AttributeReader {
  public:

@@ -73,6 +73,11 @@ std::unique_ptr<FreshCloudWriter> create_fresh_cloud_writer(const fs::path& path
   const Format format = format_of(path);
   if (!(cloud.scale > 0.0) || cloud.scale > 1e6)
     throw ConfigError(fmt::format("{}: scale {} must be positive", shown(path), cloud.scale));
+  if (cloud.label) {
+    check_columns({*cloud.label});
+    if (cloud.label->type != ColumnType::kUint32)
+      throw ConfigError(fmt::format("{}: labels of fresh points are 32-bit", shown(path)));
+  }
   return format == Format::kLas ? create_fresh_las_writer(path, cloud, options)
                                 : create_fresh_ply_writer(path, cloud, options);
 }

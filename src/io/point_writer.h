@@ -69,6 +69,7 @@ struct FreshCloud {
   std::array<double, 3> offset{0.0, 0.0, 0.0};  ///< LAS offset.
   bool colour = false;
   std::string generator = "arris";
+  std::optional<ColumnSpec> label{};  ///< Of type kUint32: the column that FreshPoint::label is written to.
 };
 
 struct FreshPoint {
@@ -77,6 +78,7 @@ struct FreshPoint {
   std::uint8_t classification = 0;
   std::uint16_t point_source_id = 0;
   std::uint16_t red = 0, green = 0, blue = 0;
+  std::uint32_t label = 0;  ///< Written if FreshCloud::label names a column.
 };
 
 /// Streams a new cloud of unknown length in bounded memory. LAS 1.4 point format 6 (7 with colour); PLY binary

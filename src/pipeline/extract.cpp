@@ -1,123 +1,65 @@
 #include "pipeline/extract.h"
 
-#include <sys/resource.h>
-
-#include <chrono>
 #include <memory>
 
 #include "core/error.h"
 #include "core/memory_budget.h"
 #include "core/parallel.h"
 #include "core/process_memory.h"
-#include "core/text.h"
 #include "io/point_source.h"
 #include "io/point_writer.h"
 #include "merge/result_spool.h"
-#include "pipeline/content_hash.h"
 #include "pipeline/gather.h"
 #include "pipeline/job_plan.h"
+#include "pipeline/label_points.h"
 #include "pipeline/run_folder.h"
+#include "pipeline/run_support.h"
+#include "pipeline/supervoxel_scene.h"
 #include "pipeline/tile_stage.h"
+#include "pipeline/voxel_memory.h"
 #include "pipeline/widen_stage.h"
 #include "tiling/tile_store.h"
 
 namespace arris::pipeline {
+
 namespace {
 
-class Stopwatch {
- public:
-  explicit Stopwatch(ExtractReport& report) : report_(report) {}
-  /// Books the time since the last call on `phase`.
-  void lap(const char* phase) {
-    const auto now = std::chrono::steady_clock::now();
-    report_.seconds.emplace_back(phase, std::chrono::duration<double>(now - last_).count());
-    last_ = now;
-  }
-
- private:
-  ExtractReport& report_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+/// Supervoxels of the scan, as the method zheng asks for them.
+struct LabelledScene {
+  SupervoxelScene scene;
+  SupervoxelTable table;
 };
 
-/// Forwards to the host's sink and keeps the warnings for the report.
-class RecordingSink : public ProgressSink {
- public:
-  RecordingSink(ProgressSink& host, ExtractReport& report) : host_(host), report_(report) {}
-  void phase(std::string_view name, std::uint64_t total_points) override { host_.phase(name, total_points); }
-  void advance(std::uint64_t done_points) override { host_.advance(done_points); }
-  void note(std::string_view text) override { host_.note(text); }
-  void warning(std::string_view code, std::string_view text) override {
-    report_.warnings.push_back({std::string(code), std::string(text)});
-    host_.warning(code, text);
+std::unique_ptr<const LabelledScene> label_scene(io::InputSet& inputs, const JobPlan& plan,
+                                                 const ExtractRequest& request, const std::filesystem::path& folder,
+                                                 ProgressSink& progress, const CancelToken& cancel) {
+  const ThreadLimit limit(request.threads);
+  auto labelled = std::make_unique<LabelledScene>(
+      LabelledScene{make_supervoxel_scene(inputs, plan.survey,
+                                          {plan.method.supervoxel, plan.scale, request.memory_bytes,
+                                           request.tile_points_cap, request.threads, true, folder},
+                                          progress, cancel),
+                    {}});
+  merge::SupervoxelMoments moments(labelled->scene.clusters.count, 4 * plan.scale.seed_steps);
+  const tiling::LatticeMapper mapper(inputs.sources(), plan.survey.lattice);
+  sum_moments(inputs, mapper, labelled->scene.labels(), moments, progress, cancel);
+  labelled->table = moments.table(labelled->scene.clusters.adjacency);
+  labelled->scene.clusters.adjacency = {};
+  return labelled;
+}
+
+/// What the method does with a tile. @param labelled  null unless the method works by supervoxels.
+TileAnalysis analysis_of(const JobPlan& plan, const LabelledScene* labelled) {
+  if (labelled == nullptr) {
+    return [&plan](const TilePoints& points) { return extract_contours(points, plan.survey.lattice, plan.method); };
   }
-
- private:
-  ProgressSink& host_;
-  ExtractReport& report_;
-};
-
-double process_cpu_seconds() {
-  struct rusage usage {};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  return [&plan, labelled](const TilePoints& points) {
+    VoxelLabels label_of = labelled->scene.labels();
+    std::vector<std::uint32_t> labels(points.positions.size());
+    for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = label_of.at(points.positions[i]);
+    return extract_zheng(points, labels, labelled->table, plan.survey.lattice, plan.method.zheng);
   };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
-
-std::uint64_t folder_bytes(const std::filesystem::path& folder) {
-  std::uint64_t bytes = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    std::error_code gone;
-    const std::uintmax_t size = entry.file_size(gone);
-    if (!gone) bytes += size;
-  }
-  return bytes;
-}
-
-void refuse_bad_outputs(const ExtractRequest& request, const std::vector<std::filesystem::path>& inputs) {
-  for (const std::filesystem::path& output : request.outputs) {
-    for (const std::filesystem::path& input : inputs) {
-      std::error_code missing;
-      if (std::filesystem::equivalent(output, input, missing)) {
-        throw ConfigError(output.string() + " is an input; choose another output");
-      }
-    }
-  }
-}
-
-void warn_of_dropped(const ExtractReport& report, ProgressSink& progress) {
-  if (report.dropped_nonfinite > 0) {
-    progress.warning("non-finite", std::to_string(report.dropped_nonfinite) +
-                                       " points have NaN or infinite coordinates and take no part");
-  }
-  if (report.dropped_out_of_range > 0) {
-    progress.warning("out-of-range",
-                     std::to_string(report.dropped_out_of_range) +
-                         " points lie outside of what the lattice can hold and take no part; see --lattice");
-  }
-}
-
-/// Warns of each problem of the inputs once; reading the points may have shown more.
-class ProblemWarnings {
- public:
-  ProblemWarnings(const io::InputSet& inputs, ProgressSink& progress)
-      : inputs_(inputs), progress_(progress), warned_(inputs.sources().size()) {}
-  void forward() {
-    for (std::size_t i = 0; i < warned_.size(); ++i) {
-      const io::SourceInfo& source = inputs_.sources()[i];
-      for (; warned_[i] < source.problems.size(); ++warned_[i]) {
-        const io::Problem& problem = source.problems[warned_[i]];
-        progress_.warning(problem.code, printable(source.path.string()) + ": " + problem.text);
-      }
-    }
-  }
-
- private:
-  const io::InputSet& inputs_;
-  ProgressSink& progress_;
-  std::vector<std::size_t> warned_;  ///< Per input, problems forwarded.
-};
 
 }  // namespace
 
@@ -127,7 +69,10 @@ ExtractReport plan_only(const ExtractRequest& request, ProgressSink& progress, c
   Stopwatch watch(report);
   io::InputSet inputs(io::expand_inputs(request.inputs), request.tolerance);
   inputs.exclude(request.exclusion);
-  const JobPlan plan = plan_job(inputs, request, sink, cancel);
+  JobPlan plan = survey_job(inputs, request, sink, cancel);
+  if (plan.method.by_supervoxels())
+    plan.memory = plan_memory({request.memory_bytes, request.threads, predicted_scene_bytes(plan.survey, plan.scale)});
+  plan_job_tiles(plan, request, sink);
   describe_plan(plan, inputs, request, report);
   warn_of_dropped(report, sink);
   watch.lap("survey");
@@ -158,13 +103,26 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
   }
 
   inputs.exclude(request.exclusion);
-  const JobPlan plan = plan_job(inputs, request, sink, cancel);
+  JobPlan plan = survey_job(inputs, request, sink, cancel);
   problems.forward();
+  watch.lap("survey");
+  const RunFolder folder(request.temp_dir);
+  std::unique_ptr<const LabelledScene> labelled;
+  if (plan.method.by_supervoxels() && plan.method.any_test()) {
+    labelled = label_scene(inputs, plan, request, folder.path(), sink, cancel);
+    report.voxels = labelled->scene.store.size();
+    report.supervoxels = labelled->scene.clusters.count;
+    report.voxel_tiles = labelled->scene.clusters.tiles;
+    report.peak_temp_bytes = labelled->scene.peak_temp_bytes;
+    plan.memory = plan_memory({request.memory_bytes, request.threads});
+    watch.lap("supervoxels");
+  }
+  plan_job_tiles(plan, request, sink);
   describe_plan(plan, inputs, request, report);
   warn_of_dropped(report, sink);
-  watch.lap("survey");
+  if (labelled)
+    report.predicted_peak_bytes = std::max(report.predicted_peak_bytes, labelled->scene.predicted_peak_bytes);
 
-  const RunFolder folder(request.temp_dir);
   merge::ResultSpool results(folder.path(), inputs.points());
   const bool any_test = plan.method.any_test();  // Without, all points are no contour.
   if (any_test) {
@@ -172,8 +130,9 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     const ThreadLimit limit(request.threads - plan.memory.tile_workers + 1);
     tiling::TileStore store(folder.path(), plan.survey.lattice, plan.tiles, "");
     MemoryBudget budget(plan.memory.tiles_bytes);
-    const TileStageResult tiles = run_tile_stage(inputs, plan, folder.path(), store, budget, results, sink, cancel);
-    report.peak_temp_bytes = std::max(tiles.spooled_bytes, folder_bytes(folder.path()));
+    const TileStageResult tiles = run_tile_stage(inputs, plan, analysis_of(plan, labelled.get()), folder.path(), store,
+                                                 budget, results, sink, cancel);
+    report.peak_temp_bytes = std::max({report.peak_temp_bytes, tiles.spooled_bytes, folder_bytes(folder.path())});
     watch.lap("tiles");
     const WidenResult widened = run_widen_stage(plan, tiles.unproven, folder.path(), store, results, sink, cancel);
     report.isolated = tiles.isolated + widened.isolated;
@@ -190,10 +149,8 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
   }
   watch.lap("write");
 
-  if (request.hash_inputs) {
-    for (InputReport& input : report.inputs) input.hash = content_hash(input.path);
-    watch.lap("hash");
-  }
+  hash_inputs(request, report);
+  if (request.hash_inputs) watch.lap("hash");
   report.cpu_seconds = process_cpu_seconds() - cpu_before;
   report.peak_resident_bytes = peak_resident_bytes();
   return report;

@@ -2,8 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/version.h"
-#include "pipeline/libraries.h"
+#include "pipeline/supervoxel.h"
 
 namespace arris::pipeline {
 namespace {
@@ -46,36 +45,49 @@ Json arris_json(const ArrisParameters& p) {
           {"viewpoint", view}};
 }
 
+Json zheng_json(const ContourParameters& parameters) {
+  const ZhengParameters& p = parameters.zheng;
+  return {{"spacing", p.spacing},
+          {"angle_deg", p.angle_deg},
+          {"contact_cap", p.contact_cap},
+          {"contact_factor", p.contact_factor},
+          {"alpha", p.alpha},
+          {"alpha_factor", p.alpha_factor},
+          {"seam_distance", p.seam_distance},
+          {"seam_factor", p.seam_factor},
+          {"improved", p.improved},
+          {"boundary", p.boundary},
+          {"fold", p.fold},
+          {"supervoxel", supervoxel_json(parameters.supervoxel)}};
+}
+
 Json parameters_json(const ContourParameters& p) {
-  return p.method == ContourParameters::Method::kArris ? arris_json(p.arris) : liu_json(p.liu);
+  switch (p.method) {
+    case ContourParameters::Method::kArris:
+      return arris_json(p.arris);
+    case ContourParameters::Method::kLiu:
+      return liu_json(p.liu);
+    case ContourParameters::Method::kZheng:
+      return zheng_json(p);
+  }
+  return {};
 }
 
 }  // namespace
 
 Json to_json(const ExtractReport& r) {
-  Json json;
-  json["schema"] = "arris-extract-report/1";
-  json["arris"] = kVersion;
-  json["libraries"] = pipeline::library_versions();
+  Json json = report_head(r, "arris-extract-report/1");
   json["method"] = r.parameters.name();
   json["parameters"] = parameters_json(r.parameters);
-  json["lattice"] = {{"step", r.lattice.step}, {"origin", r.lattice.origin}};
-  json["spacing"] = r.spacing;
-  for (const InputReport& input : r.inputs) {
-    Json entry{{"path", input.path}, {"layout", input.layout}, {"points", input.points}, {"bytes", input.size_bytes}};
-    if (!input.hash.empty()) entry["xxh3_64"] = input.hash;
-    json["inputs"].push_back(entry);
-  }
-  json["outputs"] = r.outputs;
-  json["points"] = {{"in", r.points_in},
-                    {"out", r.points_out},
-                    {"not_contour", r.not_contour},
-                    {"dropped",
-                     {{"non_finite", r.dropped_nonfinite},
-                      {"out_of_range", r.dropped_out_of_range},
-                      {"excluded", r.dropped_excluded}}}};
-  json["edges"] = {
-      {"boundary", r.boundary}, {"weak_boundary", r.weak_boundary}, {"fold", r.fold}, {"isolated_points", r.isolated}};
+  json["points"] = {
+      {"in", r.points_in}, {"out", r.points_out}, {"not_contour", r.not_contour}, {"dropped", dropped_json(r)}};
+  json["edges"] = {{"boundary", r.boundary},
+                   {"weak_boundary", r.weak_boundary},
+                   {"fold", r.fold},
+                   {"contact", r.contact},
+                   {"isolated_points", r.isolated}};
+  if (r.parameters.by_supervoxels())
+    json["supervoxels"] = {{"voxels", r.voxels}, {"count", r.supervoxels}, {"tiles", r.voxel_tiles}};
   json["tiles"] = {{"count", r.tiles},
                    {"largest_points", r.largest_tile_points},
                    {"points_limit", r.tile_points_limit},
@@ -83,15 +95,7 @@ Json to_json(const ExtractReport& r) {
                    {"halo", {{"least", r.least_halo}, {"widest", r.widest_halo}}},
                    {"duplication", r.duplication},
                    {"widened_queries", r.widened_queries}};
-  json["threads"] = r.threads;
-  json["memory"] = {{"budget_bytes", r.memory_budget_bytes},
-                    {"predicted_peak_bytes", r.predicted_peak_bytes},
-                    {"measured_peak_bytes", r.peak_resident_bytes}};
-  json["temp"] = {{"predicted_bytes", r.predicted_temp_bytes}, {"measured_peak_bytes", r.peak_temp_bytes}};
-  for (const auto& [phase, seconds] : r.seconds) json["seconds"][phase] = seconds;
-  json["cpu_seconds"] = r.cpu_seconds;
-  json["warnings"] = Json::array();
-  for (const WarningReport& w : r.warnings) json["warnings"].push_back({{"code", w.code}, {"text", w.text}});
+  append_report_tail(json, r);
   return json;
 }
 

@@ -27,7 +27,7 @@ void append_row(std::vector<std::byte>& rows, const ContourRecord& record, bool 
 }  // namespace
 
 std::vector<ColumnSpec> contour_columns(bool refined) {
-  std::vector<ColumnSpec> columns{{"EdgeClass", ColumnType::kUint8, "1 boundary 2 weak 4 fold 16/32"},
+  std::vector<ColumnSpec> columns{{"EdgeClass", ColumnType::kUint8, "1 boundary 2 weak 4 fold 8 16 32"},
                                   {"EdgeScore", ColumnType::kFloat32, "0..1"},
                                   {"FoldAngle", ColumnType::kFloat32, "interior angle, degrees"}};
   if (refined) {
@@ -69,6 +69,7 @@ void gather_points(io::InputSet& inputs, const ExtractRequest& request, const Co
       report.boundary += (record.classes & kBoundary) != 0;
       report.weak_boundary += (record.classes & kWeakBoundary) != 0;
       report.fold += (record.classes & kFold) != 0;
+      report.contact += (record.classes & kSupervoxelContact) != 0;
       report.not_contour += record.classes == 0;
       kept.push_back(static_cast<std::uint32_t>(i));
       append_row(rows, record, request.refined);

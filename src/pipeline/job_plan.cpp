@@ -9,7 +9,8 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "features/contour_method.h"
-#include "pipeline/run_folder.h"
+#include "pipeline/run_support.h"
+#include "pipeline/voxel_memory.h"
 
 namespace arris::pipeline {
 namespace {
@@ -29,39 +30,32 @@ double resolve_max_radius(const ContourParameters& method, const tiling::Survey&
   return std::min(most, std::max({kMaxRadiusSpacings * spacing, method.fixed_radius(), 4.0 * survey.lattice.step}));
 }
 
-void check_temp_space(const JobPlan& plan, const ExtractRequest& request, ProgressSink& progress) {
-  const TempSpace space = temp_space(request.temp_dir);
-  const std::uint64_t limit =
-      request.max_temp_bytes > 0 ? std::min(request.max_temp_bytes, space.free_bytes) : space.free_bytes;
-  if (plan.predicted_temp_bytes > limit) {
-    throw BudgetError(fmt::format(
-        "temporary files need about {} but {} allows {}; free space, raise --max-temp or choose another --temp-dir",
-        human_bytes(plan.predicted_temp_bytes), request.temp_dir.string(), human_bytes(limit)));
-  }
-  if (space.in_memory) {
-    progress.warning("temp-in-memory",
-                     fmt::format("{} is a file system in memory: temporary files count as memory; choose "
-                                 "another --temp-dir",
-                                 request.temp_dir.string()));
-  }
-}
-
 }  // namespace
 
-JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSink& progress,
-                 const CancelToken& cancel) {
+JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSink& progress,
+                   const CancelToken& cancel) {
   JobPlan plan;
   plan.memory = plan_memory({request.memory_bytes, request.threads});
   plan.survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
   plan.method = request.method;
-  plan.method.set_max_radius(resolve_max_radius(request.method, plan.survey));
+  if (plan.method.by_supervoxels()) {
+    ZhengParameters& zheng = plan.method.zheng;
+    if (zheng.spacing == 0.0) zheng.spacing = std::max(plan.survey.spacing, plan.survey.lattice.step);
+    plan.scale = resolve_scale(plan.method.supervoxel, zheng.spacing, plan.survey.lattice);
+  } else {
+    plan.method.set_max_radius(resolve_max_radius(request.method, plan.survey));
+  }
   validate(plan.method);
+  return plan;
+}
 
+void plan_job_tiles(JobPlan& plan, const ExtractRequest& request, ProgressSink& progress) {
   tiling::PlanRequest tiles;
   tiles.max_points = plan.memory.max_tile_points;
   tiles.max_core_points = request.tile_points_cap;
   tiles.halo = [&](double spacing) { return contour_halo(plan.method, spacing); };
   tiles.max_radius = plan.method.max_radius();
+  tiles.whole_halo = plan.method.by_supervoxels();
   plan.tiles = tiling::plan_tiles(plan.survey, tiles);
 
   // Few tiles leave threads idle: then one tile at a time uses all of them inside.
@@ -81,23 +75,14 @@ JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSi
       static_cast<std::uint64_t>(stored * (kSpoolBytesPerPoint + kTileFileBytesPerPoint) +
                                  static_cast<double>(plan.survey.points()) * kResultBytesPerPoint) +
       plan.tiles.tiles.size() * 64 * 1024;
-  check_temp_space(plan, request, progress);
-  return plan;
+  if (plan.method.by_supervoxels()) plan.predicted_temp_bytes += predicted_voxel_temp_bytes(plan.survey, plan.scale);
+  check_temp_space(plan.predicted_temp_bytes, request, progress);
 }
 
 void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const ExtractRequest& request,
                    ExtractReport& report) {
+  describe_inputs(plan.survey, inputs, request, report);
   report.parameters = plan.method;
-  report.lattice = plan.survey.lattice;
-  report.bounds = plan.survey.bounds;
-  report.spacing = plan.survey.spacing;
-  for (const io::SourceInfo& source : inputs.sources()) {
-    report.inputs.push_back({source.path.string(), source.layout, source.points, source.size_bytes, ""});
-  }
-  report.points_in = plan.survey.points_in;
-  report.dropped_nonfinite = plan.survey.dropped_nonfinite;
-  report.dropped_out_of_range = plan.survey.dropped_out_of_range;
-  report.dropped_excluded = plan.survey.dropped_excluded;
   report.tiles = plan.tiles.tiles.size();
   report.largest_tile_points = plan.tiles.largest_covered_points;
   report.tile_points_limit = plan.memory.max_tile_points;
@@ -111,8 +96,6 @@ void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const Extrac
   }
   report.least_halo = static_cast<double>(least) * plan.survey.lattice.step;
   report.widest_halo = static_cast<double>(widest) * plan.survey.lattice.step;
-  report.threads = request.threads;
-  report.memory_budget_bytes = request.memory_bytes;
   report.predicted_peak_bytes = plan.predicted_peak_bytes;
   report.predicted_temp_bytes = plan.predicted_temp_bytes;
 }

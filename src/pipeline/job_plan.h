@@ -12,6 +12,7 @@ namespace arris::pipeline {
 struct JobPlan {
   tiling::Survey survey;
   ContourParameters method;  ///< Resolved.
+  SupervoxelScale scale;     ///< Of methods by supervoxels.
   MemoryPlan memory;
   tiling::TilePlan tiles;
   std::uint64_t predicted_peak_bytes = 0;
@@ -22,9 +23,13 @@ struct JobPlan {
 /// the square of the range: spacing may grow 20-fold from where most points are to where the least are.
 constexpr double kMaxRadiusSpacings = 120.0;
 
-/// Reads the inputs once (twice for floating-point coordinates). Throws BudgetError if memory or disk cannot do.
-JobPlan plan_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSink& progress,
-                 const CancelToken& cancel);
+/// Survey and parameters. Reads the inputs once (twice for floating-point coordinates). Throws BudgetError if memory
+/// cannot do for any scan.
+JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, ProgressSink& progress,
+                   const CancelToken& cancel);
+
+/// Tiles of points, from plan.memory. Throws BudgetError if memory or disk cannot do.
+void plan_job_tiles(JobPlan& plan, const ExtractRequest& request, ProgressSink& progress);
 
 /// Copies what a plan decided into a report.
 void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const ExtractRequest& request,

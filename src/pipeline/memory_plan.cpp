@@ -49,16 +49,16 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   MemoryPlan plan;
   plan.budget_bytes = request.budget_bytes;
   plan.spool_buffer_bytes = spool_buffer_bytes(request.budget_bytes);
-  plan.fixed_bytes = fixed_bytes(request.threads, plan.spool_buffer_bytes);
+  plan.fixed_bytes = request.kept_bytes + fixed_bytes(request.threads, plan.spool_buffer_bytes);
   const auto usable = static_cast<std::uint64_t>(kSafety * static_cast<double>(request.budget_bytes));
   if (usable < plan.fixed_bytes + tile_bytes(kLeastTilePoints)) {  // Short of memory: the least buffer.
     plan.spool_buffer_bytes = kLeastSpoolBytes;
-    plan.fixed_bytes = fixed_bytes(request.threads, plan.spool_buffer_bytes);
+    plan.fixed_bytes = request.kept_bytes + fixed_bytes(request.threads, plan.spool_buffer_bytes);
   }
   if (usable < plan.fixed_bytes + tile_bytes(kLeastTilePoints)) {
-    throw BudgetError(fmt::format("--memory {} is too small: this run needs at least {}",
-                                  human_bytes(request.budget_bytes),
-                                  human_bytes(least_budget_bytes(kLeastTilePoints, request.threads))));
+    throw BudgetError(
+        fmt::format("--memory {} is too small: this run needs at least {}", human_bytes(request.budget_bytes),
+                    human_bytes(request.kept_bytes + least_budget_bytes(kLeastTilePoints, request.threads))));
   }
   plan.tiles_bytes = usable - plan.fixed_bytes;
   plan.tile_workers = request.threads;

@@ -8,6 +8,7 @@ namespace arris::pipeline {
 struct MemoryRequest {
   std::uint64_t budget_bytes = 0;
   int threads = 1;
+  std::uint64_t kept_bytes = 0;  ///< What will be resident besides, and is not yet.
 };
 
 /// The division. fixed_bytes + tile_workers tiles of max_tile_points fit into the budget.

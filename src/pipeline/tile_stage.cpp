@@ -51,9 +51,9 @@ std::vector<UnprovenQuery> read_queries(const std::filesystem::path& path) {
   return queries;
 }
 
-TileStageResult run_tile_stage(io::InputSet& inputs, const JobPlan& plan, const std::filesystem::path& folder,
-                               tiling::TileStore& store, MemoryBudget& budget, merge::ResultSpool& results,
-                               ProgressSink& progress, const CancelToken& cancel) {
+TileStageResult run_tile_stage(io::InputSet& inputs, const JobPlan& plan, const TileAnalysis& analysis,
+                               const std::filesystem::path& folder, tiling::TileStore& store, MemoryBudget& budget,
+                               merge::ResultSpool& results, ProgressSink& progress, const CancelToken& cancel) {
   TileStageResult stage;
   stage.unproven.assign(plan.tiles.tiles.size(), 0);
   std::atomic<std::uint64_t> isolated{0};
@@ -68,7 +68,7 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const JobPlan& plan, const 
     {
       TilePoints points = store.load(tile);
       points.covered = points.covered.unlimited_beyond(plan.survey.bounds);
-      contours = extract_contours(points, plan.survey.lattice, plan.method);
+      contours = analysis(points);
     }
     if (!contours.unproven.empty()) {
       write_queries(folder / fmt::format("{}.queries", tile), contours.unproven);

@@ -52,6 +52,8 @@ struct Face {
   std::vector<Circle2> circle_holes;  ///< Plane: disjoint holes inside the outline.
   std::vector<Rect2> rect_holes;
   Material material;
+  /// Number of the surface that it is a part of, from 1; 0 for volumes, and until number_surfaces() has set it.
+  std::uint32_t surface = 0;
 
   Vec3 at(double u, double v) const { return origin + u * eu + v * ev; }
   /// Scanned scenes take full cylinders only.

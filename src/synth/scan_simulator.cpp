@@ -129,6 +129,7 @@ void ScanSimulator::make_column(std::size_t station_index, std::uint64_t column,
     point.intensity = intensity(hit, face.material.reflectance);
     point.classification = real ? face.material.classification : std::uint8_t{7};
     point.point_source_id = static_cast<std::uint16_t>(station_index + 1);
+    point.label = real ? face.surface : 0;
     point.red = face.material.red;
     point.green = face.material.green;
     point.blue = face.material.blue;

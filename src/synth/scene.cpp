@@ -12,6 +12,7 @@
 #include "synth/placement.h"
 #include "synth/scan_simulator.h"
 #include "synth/scan_truth.h"
+#include "synth/surface_numbers.h"
 #include "synth/surface_sampler.h"
 
 namespace arris::synth {
@@ -71,6 +72,7 @@ struct Scene::Impl {
       spacing = SurfaceSampler::spacing_for(model, sampling, request.points);
       model = info.build(options, spacing);  // Some lengths are given in spacings; areas hardly depend on them.
     }
+    number_surfaces(model.faces);
     units = std::make_unique<SurfaceSampler>(
         model, SurfaceSampling{sampling, spacing, request.noise, request.outliers, request.seed});
   }
@@ -84,6 +86,7 @@ struct Scene::Impl {
     settings.mixed_pixels = options.at("mixed_pixels");
     settings.registration = options.at("registration");
     settings.seed = request.seed;
+    number_surfaces(model.faces);
     auto scanner = std::make_unique<ScanSimulator>(model, settings);
     spacing = scanner->spacing();
     scan = scanner.get();

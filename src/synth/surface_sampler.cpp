@@ -282,6 +282,7 @@ void SurfaceSampler::finish(const Face& face, const CellRow& row, Vec3 position,
   point.intensity = static_cast<std::uint16_t>(65535.0 * face.material.reflectance);
   point.classification = outlier ? std::uint8_t{7} : face.material.classification;
   point.point_source_id = outlier ? std::uint16_t{0} : row.face_number;
+  point.label = outlier ? 0 : face.surface;
   point.red = face.material.red;
   point.green = face.material.green;
   point.blue = face.material.blue;

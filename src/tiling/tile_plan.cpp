@@ -15,6 +15,8 @@ namespace {
 
 /// A core of less than 1/4 of the points that fit, in a tile that does not fit.
 constexpr std::uint64_t kHaloDominates = 4;
+/// A tile whose halo must stay whole and whose core is less than 1/64 of what fits is not cut further: it would not help.
+constexpr std::uint64_t kHaloIsTooLarge = 64;
 
 std::vector<PlanCell> list_cells(const Survey& survey) {
   const CellCounts& counts = survey.counts;
@@ -73,9 +75,10 @@ class Planner {
   void split(std::span<PlanCell> cells, CellBox box) {
     const CellBox occupied = occupied_part(cells);
     PlannedTile tile = make_tile(cells, occupied);
-    if (tile.core_points <= request_.max_points / kHaloDominates) narrow_halo(tile);
+    if (!request_.whole_halo && tile.core_points <= request_.max_points / kHaloDominates) narrow_halo(tile);
     const bool core_fits = request_.max_core_points == 0 || tile.core_points <= request_.max_core_points;
-    if ((tile.covered_points <= request_.max_points && core_fits) || cells.size() == 1) {
+    const bool hopeless = request_.whole_halo && tile.core_points <= request_.max_points / kHaloIsTooLarge;
+    if ((tile.covered_points <= request_.max_points && core_fits) || cells.size() == 1 || (hopeless && core_fits)) {
       plan_.tiles.push_back(tile);
       return;
     }

@@ -24,6 +24,8 @@ struct PlanRequest {
   /// Halo in data units that a method wants where the local spacing is at most `spacing` (data units).
   std::function<double(double spacing)> halo;
   double max_radius = 0.0;  ///< R_max in data units, > 0: no halo is wider.
+  /// The halo is needed whole: queries cannot be asked again. Else it is narrowed where it would dominate a tile.
+  bool whole_halo = false;
 };
 
 struct TilePlan {

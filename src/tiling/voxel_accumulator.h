@@ -16,14 +16,17 @@ namespace arris::tiling {
 /// voxels; finish() merges the runs. Sums are integers, so the voxels depend on the set of points only, not on their
 /// order, the size of the table or the number of runs.
 ///
-/// Memory: table_bytes, during add() as during finish(). Temporary disk: at most 80 bytes per entry of a run (as many
-/// as there are voxels when neighbours in the input are neighbours in space, as many as points at worst). Not
+/// Memory: table_bytes, during add() as during finish(), and the index of the store. 52 bytes per voxel in the table,
+/// 64 with colours. Temporary disk: 28 bytes (40 with colours) per entry of a run, twice that while many runs are
+/// merged in rounds, and 36 per voxel of the store; a run has as many entries as there are voxels when neighbours in
+/// the input are neighbours in space, as many as points at worst. One accumulator per folder at a time. Not
 /// thread-safe.
 class VoxelAccumulator {
  public:
   struct Options {
     std::filesystem::path folder;                   ///< Existing; runs and the store go here.
-    std::size_t table_bytes = 32U * 1024U * 1024U;  ///< >= 1 MiB.
+    std::size_t table_bytes = 32U * 1024U * 1024U;  ///< >= 1 MiB; less works, but takes more than was said.
+    std::uint64_t most_index_bytes = ~std::uint64_t{0};  ///< finish() throws BudgetError rather than exceed it.
   };
   VoxelAccumulator(const VoxelGrid& grid, Options options);
   ~VoxelAccumulator();
@@ -32,7 +35,8 @@ class VoxelAccumulator {
 
   /// @param colours  as many as positions, or none.
   void add(std::span<const LatticePoint> positions, std::span<const RawColour> colours = {});
-  /// Completes the voxels; call once, then add() no more. Throws IoError; BudgetError if there are 2^32 - 1 or more.
+  /// Completes the voxels; call once, then add() no more. Throws IoError; BudgetError if there are 2^32 - 1 or more
+  /// voxels, or if their index becomes too large.
   VoxelStore finish();
   std::uint64_t bytes_on_disk() const;  ///< Of runs and store, at most so far.
 

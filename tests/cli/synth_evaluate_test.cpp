@@ -9,6 +9,7 @@
 
 #include "support/arris_process.h"
 #include "support/temp_folder.h"
+#include "support/sanitizers.h"
 
 namespace arris::test {
 namespace {
@@ -49,6 +50,7 @@ TEST(SynthTown_Truth, OfTheScan_IsTheDefaultAndTheSameForAnyThreads) {
 }
 
 TEST(EvaluateLocalSpacing, InputAsPrediction_CoversTheTruthOfItsScan) {
+  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
   const TempFolder folder;
   const std::string scan = folder / "scan.las", truth = folder / "truth.csv";
   ASSERT_EQ(run_arris(small_town("50000", scan, truth)).exit_code, 0);
@@ -68,6 +70,72 @@ TEST(EvaluateLocalSpacing, InputAsPrediction_CoversTheTruthOfItsScan) {
   const ProcessResult csv = run_arris({"evaluate", scan, "--truth", truth, "--local-spacing", "--csv"});
   EXPECT_EQ(csv.exit_code, 0);
   EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 5);
+}
+
+TEST(SynthLabels, AreAColumnMore_AndTheRestStaysTheSame) {
+  const TempFolder folder;
+  for (const std::string scene : {"block", "town"}) {
+    const std::string plain = folder / "plain.ply", labelled = folder / "labelled.ply";
+    ASSERT_EQ(run_arris({"synth", scene, "--points", "5000", "-o", plain, "--overwrite"}).exit_code, 0);
+    ASSERT_EQ(run_arris({"synth", scene, "--points", "5000", "-o", labelled, "--labels", "--overwrite"}).exit_code, 0);
+    EXPECT_EQ(text_of(plain).find("FaceId"), std::string::npos);
+    EXPECT_NE(text_of(labelled).find("property uint FaceId\nend_header"), std::string::npos);
+    // The truth is a perfect segmentation of itself, and the points of the other cloud are the same.
+    const ProcessResult run = run_arris({"evaluate", labelled, "--labels", labelled, "--segments", "FaceId", "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json["achievable_accuracy"], 1.0);
+    EXPECT_EQ(json["adjusted_rand"], 1.0);
+    EXPECT_EQ(json["boundaries"][0]["recall"], 1.0);
+    EXPECT_EQ(json["left_out"], 0);
+    if (scene == "block") {
+      EXPECT_EQ(json["segments"], 10);
+    }
+  }
+}
+
+TEST(EvaluateSegments, OfFormatsScalesAndColumns_CompareThePointsThatAreTheSame) {
+  const TempFolder folder;
+  const std::string las = folder / "block.las", ply = folder / "block.ply";
+  for (const std::string& cloud : {las, ply}) {
+    ASSERT_EQ(
+        run_arris({"synth", "block", "--points", "5000", "--outliers", "0.05", "-o", cloud, "--labels"}).exit_code, 0);
+  }
+  // The numbers of the faces that synth writes besides are a perfect segmentation of the block.
+  const ProcessResult table =
+      run_arris({"evaluate", ply, "--labels", las, "--segments", "point_source_id", "--radius", "1", "--voxel", "0.5"});
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_NE(table.out.find("on 10 surfaces"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("within 1 of another label"), std::string::npos) << table.out;
+  const ProcessResult csv =
+      run_arris({"evaluate", ply, "--labels", las, "--segments", "point_source_id", "--spacing", "0.6", "--csv"});
+  EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 4);
+  EXPECT_NE(csv.out.find("\n0.6,1,1,1,"), std::string::npos) << csv.out;
+}
+
+TEST(EvaluateSegments, OfOtherPointsOrWithoutLabels_SayWhatToDo) {
+  const TempFolder folder;
+  const std::string truth = folder / "truth.las", other = folder / "other.las", fewer = folder / "fewer.las";
+  ASSERT_EQ(run_arris({"synth", "plane", "--points", "900", "-o", truth, "--labels"}).exit_code, 0);
+  ASSERT_EQ(run_arris({"synth", "plane", "--points", "900", "--seed", "2", "-o", other, "--labels"}).exit_code, 0);
+  ASSERT_EQ(run_arris({"synth", "plane", "--points", "400", "-o", fewer, "--labels"}).exit_code, 0);
+  const auto complaint = [&](int exit_code, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "evaluate");
+    const ProcessResult run = run_arris(arguments);
+    EXPECT_EQ(run.exit_code, exit_code) << run.err;
+    EXPECT_EQ(run.out, "");
+    return run.err;
+  };
+  EXPECT_NE(complaint(1, {other, "--labels", truth, "--segments", "FaceId"}).find("point 0 is at ("),
+            std::string::npos);
+  EXPECT_NE(complaint(1, {fewer, "--labels", truth, "--segments", "FaceId"}).find("have 400 and 900 points"),
+            std::string::npos);
+  EXPECT_NE(complaint(2, {truth, "--labels", truth}).find("no column SupervoxelId or SegmentId"), std::string::npos);
+  EXPECT_NE(complaint(2, {truth, "--labels", truth, "--segments", "FaceId", "--faces", "Face"}).find("--faces"),
+            std::string::npos);
+  EXPECT_NE(complaint(2, {truth, "--labels", truth, "--segments", "FaceId", "--edges", "folds"}), "");
+  EXPECT_NE(complaint(2, {truth, "--segments", "FaceId"}), "");
+  EXPECT_NE(complaint(2, {truth}).find("--truth"), std::string::npos);
 }
 
 TEST(EvaluateOptions, ThatTheFilesCannotServe_ExitWith2) {

@@ -2,13 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "support/arris_process.h"
 #include "support/las_tools.h"
+#include "support/ply_tools.h"
 #include "support/sanitizers.h"
 #include "support/temp_folder.h"
 
@@ -17,6 +20,30 @@ namespace {
 
 // AddressSanitizer's own memory counts as resident.
 const std::string kSmallBudget = kAddressSanitizer ? "768MiB" : "256MiB";
+
+std::string cap_of(const TilingCase& c, const TilingRun& run) {
+  return c.tile_points == "none" ? c.tile_points : std::to_string(std::stoi(c.tile_points) / run.caps_divisor);
+}
+
+std::vector<std::string> arguments_of(const TilingCase& c, const TilingRun& run) {
+  std::vector<std::string> arguments{run.verb, "--tile-points", cap_of(c, run), "--threads", std::to_string(c.threads)};
+  if (!c.memory.empty())
+    arguments.insert(arguments.end(), {"--memory", c.memory == "256MiB" ? kSmallBudget : c.memory});
+  arguments.insert(arguments.end(), run.options.begin(), run.options.end());
+  return arguments;
+}
+
+std::string name_of(const TilingCase& c, const TilingRun& run) {
+  return "cap " + cap_of(c, run) + ", " + std::to_string(c.threads) + " threads, memory '" + c.memory + "', " +
+         (c.split ? "5 files" : "1 file");
+}
+
+/// Of points or voxels; where there are both, the fewer.
+std::uint64_t tiles_of(const nlohmann::json& report) {
+  const auto tiles = report["tiles"]["count"].get<std::uint64_t>();
+  if (!report.contains("supervoxels") || !report["supervoxels"].contains("tiles")) return tiles;
+  return std::min(tiles, report["supervoxels"]["tiles"].get<std::uint64_t>());
+}
 
 }  // namespace
 
@@ -45,37 +72,46 @@ std::vector<TilingCase> least_matrix() {
 
 void expect_same_bytes(const std::filesystem::path& scan, const std::vector<TilingCase>& cases, int caps_divisor,
                        const std::vector<std::string>& options) {
+  expect_same_bytes(scan, cases, {"extract", options, {}, caps_divisor});
+}
+
+void expect_same_bytes(const std::filesystem::path& scan, const std::vector<TilingCase>& cases, const TilingRun& run) {
   const TempFolder folder;
+  const bool ply = scan.extension() == ".ply";
   std::vector<std::filesystem::path> parts{scan};
-  if (!std::filesystem::is_directory(scan)) parts = split_las(scan, 5, folder.path());
-  std::string expected;
+  if (!std::filesystem::is_directory(scan))
+    parts = ply ? split_ply_file(scan, 5, folder.path()) : split_las(scan, 5, folder.path());
+  std::vector<std::filesystem::path> outputs{folder / (ply ? "out.ply" : "out.las")};
+  for (const auto& [option, ending] : run.more_outputs) outputs.push_back(folder.path() / (option + ending));
+  std::vector<std::string> expected;
+  std::uint64_t most_tiles = 0;
   for (const TilingCase& c : cases) {
-    const std::string out = folder / "out.las";
-    const std::string cap =
-        c.tile_points == "none" ? c.tile_points : std::to_string(std::stoi(c.tile_points) / caps_divisor);
-    std::vector<std::string> arguments{"extract", "--tile-points", cap, "--threads", std::to_string(c.threads)};
-    if (!c.memory.empty())
-      arguments.insert(arguments.end(), {"--memory", c.memory == "256MiB" ? kSmallBudget : c.memory});
+    const std::string what = name_of(c, run);
+    std::vector<std::string> arguments = arguments_of(c, run);
     if (c.split) {
       for (const auto& part : parts) arguments.push_back(part);
     } else {
       arguments.push_back(scan);
     }
-    arguments.insert(arguments.end(), {"-o", out, "--overwrite", "-q"});
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const ProcessResult run = run_arris(arguments);
-    const std::string what = "cap " + cap + ", " + std::to_string(c.threads) + " threads, memory '" + c.memory + "', " +
-                             (c.split ? "5 files" : "1 file");
-    ASSERT_EQ(run.exit_code, 0) << what << "\n" << run.err;
-    EXPECT_EQ(run.err, "") << what;
-    const std::string bytes = file_bytes(out);
+    arguments.insert(arguments.end(), {"-o", outputs[0]});
+    for (std::size_t i = 1; i < outputs.size(); ++i)
+      arguments.insert(arguments.end(), {run.more_outputs[i - 1].first, outputs[i]});
+    arguments.insert(arguments.end(), {"--report", folder / "report.json", "--overwrite", "-q"});
+    const ProcessResult result = run_arris(arguments);
+    ASSERT_EQ(result.exit_code, 0) << what << "\n" << result.err;
+    EXPECT_EQ(result.err, "") << what;
+    const auto report = nlohmann::json::parse(file_bytes(folder / "report.json"));
+    most_tiles = std::max(most_tiles, tiles_of(report));
+    std::vector<std::string> bytes;
+    for (const auto& output : outputs) bytes.push_back(file_bytes(output));
     if (expected.empty()) {
       expected = bytes;
-      const LasView view = view_las(out);
-      EXPECT_GT(view.points, 100U) << "a comparison of empty outputs proves nothing";
+      EXPECT_GT(report["points"]["out"], 100U) << "a comparison of empty outputs proves nothing";
     }
-    EXPECT_TRUE(bytes == expected) << "output differs: " << what;
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+      EXPECT_TRUE(bytes[i] == expected[i]) << outputs[i].filename() << " differs: " << what;
   }
+  EXPECT_GT(most_tiles, 1U) << "no case was cut into tiles";
 }
 
 void synth_scan(const std::filesystem::path& path, std::vector<std::string> arguments) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace arris::test {
@@ -22,10 +23,20 @@ std::vector<TilingCase> small_matrix();
 /// One run untiled, one with everything different, one between (under ThreadSanitizer: two of many tiles and threads).
 std::vector<TilingCase> least_matrix();
 
-/// Runs extract for every case and expects one and the same output, with contour points in it. `caps_divisor` makes
-/// tiles smaller for small clouds.
-/// @param scan  a LAS file, or a folder of scans (which is not split).
-/// @param options  more options of extract.
+/// What is run for every case.
+struct TilingRun {
+  std::string verb = "extract";
+  std::vector<std::string> options{};
+  /// Options that take a file to write, with the ending of its name: {"--table", ".csv"}. Their bytes count too.
+  std::vector<std::pair<std::string, std::string>> more_outputs{};
+  int caps_divisor = 1;  ///< Makes tiles smaller for small clouds.
+};
+
+/// Runs every case and expects one and the same output, with points in it, and several tiles in one case at least.
+/// @param scan  a LAS file, a binary PLY file without lists, or a folder of scans (which is not split).
+void expect_same_bytes(const std::filesystem::path& scan, const std::vector<TilingCase>& cases, const TilingRun& run);
+
+/// The same for extract.
 void expect_same_bytes(const std::filesystem::path& scan, const std::vector<TilingCase>& cases, int caps_divisor = 1,
                        const std::vector<std::string>& options = {});
 

@@ -22,6 +22,7 @@ class Builder {
   void surface(double width, double height, const std::function<bool(double, double)>& keep,
                const std::function<Point(double, double)>& at) {
     const double s = sampling_.spacing;
+    const double first = 0.5 - 0.5 * sampling_.jitter;
     const auto columns = static_cast<int>(std::lround(width / s));
     const auto rows = static_cast<int>(std::lround(height / s));
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -30,14 +31,16 @@ class Builder {
       for (int j = 0; j < rows; ++j) {
         const double ju = unit(random_);
         const double jv = unit(random_);
-        const double u = sampling_.random ? ju * width : (i + 0.25 + 0.5 * ju) * width / columns;
-        const double v = sampling_.random ? jv * height : (j + 0.25 + 0.5 * jv) * height / rows;
+        const double u = sampling_.random ? ju * width : (i + first + sampling_.jitter * ju) * width / columns;
+        const double v = sampling_.random ? jv * height : (j + first + sampling_.jitter * jv) * height / rows;
         if (!keep(u, v)) continue;
         Point p = at(u, v);
         for (double& c : p) c += sampling_.noise * s * noise(random_);
         scene_.points.push_back(p);
+        scene_.faces.push_back(faces_);
       }
     }
+    ++faces_;
   }
 
   void curve(double length, const std::function<Point(double)>& at) {
@@ -63,6 +66,7 @@ class Builder {
  private:
   Sampling sampling_;
   std::mt19937_64 random_;
+  std::uint32_t faces_ = 0;
   Scene scene_;
 };
 

@@ -14,7 +14,8 @@ using Point = std::array<double, 3>;
 
 struct Scene {
   std::vector<Point> points;
-  std::vector<Point> truth;  ///< Contours, sampled every half spacing.
+  std::vector<std::uint32_t> faces;  ///< Number of the surface that each point was sampled from.
+  std::vector<Point> truth;          ///< Contours, sampled every half spacing.
   double spacing = 0.0;
 };
 
@@ -22,7 +23,8 @@ struct Scene {
 struct Sampling {
   double spacing = 0.25;
   double noise = 0.0;   ///< Standard deviation of isotropic Gaussian noise, in spacings.
-  bool random = false;  ///< Uniformly random instead of a jittered grid (half a spacing of jitter in all).
+  bool random = false;  ///< Uniformly random instead of a jittered grid.
+  double jitter = 0.5;  ///< Of the grid, in all, spacings.
   std::uint64_t seed = 1;
 };
 

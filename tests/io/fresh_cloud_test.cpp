@@ -1,3 +1,4 @@
+#include "io/attribute_reader.h"
 #include "io_helpers.h"
 #include "las_builder.h"
 
@@ -68,6 +69,44 @@ TEST(FreshCloud, LasAndPly_HoldTheSameRoundedPoints) {
   }
 }
 
+TEST(FreshCloud, LabelColumn_IsReadBackAndChangesNothingElse) {
+  const TempFolder folder;
+  std::vector<io::FreshPoint> points = make_points(5000);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].label = static_cast<std::uint32_t>(4'000'000'000U - i);
+  for (const bool colour : {false, true}) {
+    for (const std::string extension : {".las", ".ply"}) {
+      io::FreshCloud cloud;
+      cloud.colour = colour;
+      const auto write = [&](const std::string& name) {
+        const auto writer = io::create_fresh_cloud_writer(folder.path() / name, cloud, {true});
+        writer->append(points);
+        writer->commit();
+      };
+      write("plain" + extension);
+      cloud.label = ColumnSpec{"FaceId", ColumnType::kUint32, "number of the surface"};
+      write("labelled" + extension);
+      const AllPoints plain = read_all(folder.path() / ("plain" + extension));
+      const AllPoints labelled = read_all(folder.path() / ("labelled" + extension));
+      EXPECT_EQ(labelled.world, plain.world);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::size_t size = plain.records[i].size();
+        ASSERT_EQ(labelled.records[i].substr(0, size), plain.records[i]);
+        ASSERT_EQ(labelled.records[i].size(), size + 4);
+        ASSERT_EQ(get<std::uint32_t>(labelled.records[i], size), points[i].label);
+      }
+      const auto source = io::open_point_source(folder.path() / ("labelled" + extension));
+      EXPECT_TRUE(source->info().problems.empty());
+      io::AttributeReader attributes(folder.path() / ("labelled" + extension), {"FaceId"});
+      ASSERT_TRUE(attributes.has(0));
+      io::PointBatch batch;
+      std::vector<double> values;
+      ASSERT_TRUE(source->read(batch, {.records = true}));
+      attributes.read(batch, 0, values);
+      EXPECT_EQ(values.at(7), 4e9 - 7);
+    }
+  }
+}
+
 TEST(FreshCloud, NoPoints_GiveValidFiles) {
   const TempFolder folder;
   for (const char* name : {"a.las", "a.ply"}) {
@@ -86,6 +125,8 @@ TEST(FreshCloud, PointOutsideTheScale_IsRefused) {
     EXPECT_HAS(message_of<ConfigError>([&] { writer->append(points); }), "y = 3000000");
   }
   io::FreshCloud cloud;
+  cloud.label = ColumnSpec{"FaceId", ColumnType::kUint8, ""};
+  EXPECT_HAS(message_of<ConfigError>([&] { io::create_fresh_cloud_writer(folder / "b.las", cloud, {}); }), "32-bit");
   cloud.scale = 0.0;
   message_of<ConfigError>([&] { io::create_fresh_cloud_writer(folder / "b.las", cloud, {}); });
 }

@@ -158,6 +158,30 @@ TEST(TilePlan, HaloThatHoldsMoreThanATile_IsNarrowedRatherThanCutForever) {
   EXPECT_LE(plan.tiles.size(), 1000U);
 }
 
+RC_GTEST_PROP(TilePlan, WholeHalo_IsNeverNarrowed, ()) {
+  const auto points = test::any_cloud(1, 800);
+  PlanRequest asked = request(*rc::gen::inRange<std::uint64_t>(1, 400).as("max points"));
+  const auto halo_steps = *rc::gen::inRange<std::int64_t>(1, 5'000'000).as("halo");
+  asked.halo = [&](double) { return 0.5 * static_cast<double>(halo_steps); };  // A step is 0.5.
+  asked.whole_halo = true;
+  const TilePlan plan = plan_tiles(survey_of(points), asked);
+  std::uint64_t owned = 0;
+  for (const PlannedTile& tile : plan.tiles) {
+    RC_ASSERT(tile.covered == tile.core.expanded(halo_steps));
+    owned += count_inside(points, tile.core);
+  }
+  RC_ASSERT(owned == points.size());
+}
+
+TEST(TilePlan, WholeHaloThatHoldsMoreThanATile_IsReportedNotCutForever) {
+  PlanRequest asked = request(1000, 200.0);
+  asked.whole_halo = true;
+  const TilePlan plan = plan_tiles(survey_of(test::plane_grid(200, 10)), asked);
+  EXPECT_GT(plan.largest_covered_points, 1000U) << "the caller must learn that the budget cannot be met";
+  // Cutting ends below 1000 / 64 points a core.
+  EXPECT_LE(plan.tiles.size(), 64U * 200 * 200 / 1000 * 4);
+}
+
 TEST(TilePlan, OverfullCell_IsReportedNotCut) {
   const std::vector<LatticePoint> points(1000, LatticePoint{5, 5, 5});
   const TilePlan plan = plan_tiles(survey_of(points), request(10));

@@ -1,0 +1,44 @@
+#pragma once
+/// @file The voxels of one tile as the supervoxel method sees them.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/lattice.h"
+#include "core/voxel.h"
+
+namespace arris {
+
+/// A position in 1 / kVoxelFractions lattice steps, modulo 2^32 per axis. Only differences have a meaning; they are
+/// exact below 2^31 fractions (2^27 steps).
+using VoxelPosition = std::array<std::uint32_t, 3>;
+
+inline std::int32_t difference(std::uint32_t a, std::uint32_t b) {
+  return static_cast<std::int32_t>(a - b);
+}
+
+/// Voxels of a core and its halo as structure of arrays, in Z-order of their keys. Nothing that is computed for a core
+/// voxel may depend on where the halo ends.
+struct VoxelTile {
+  explicit VoxelTile(const VoxelGrid& voxel_grid) : grid(voxel_grid) {}
+
+  VoxelGrid grid;
+  std::vector<LatticePoint> keys;
+  std::vector<VoxelPosition> positions;  ///< Centroids.
+  std::vector<RawColour> colours;        ///< Empty if colours take no part.
+  std::vector<std::uint32_t> ranks;      ///< Among all voxels of the scan, ascending.
+  std::vector<std::uint8_t> core;        ///< 1: owned by this tile.
+  /// neighbours[neighbour_begin[v] .. neighbour_begin[v + 1]): the existing ones of the 26 voxels around v, in
+  /// ascending (dx, dy, dz).
+  std::vector<std::uint32_t> neighbour_begin;
+  std::vector<std::uint32_t> neighbours;
+
+  std::size_t size() const { return keys.size(); }
+  std::span<const std::uint32_t> neighbours_of(std::size_t v) const {
+    return {neighbours.data() + neighbour_begin[v], neighbour_begin[v + 1] - neighbour_begin[v]};
+  }
+};
+
+}  // namespace arris

@@ -1,0 +1,277 @@
+#include "merge/cluster_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+
+#include "core/parallel.h"
+
+namespace arris::merge {
+namespace {
+
+constexpr std::size_t kGrain = 16 * 1024;
+/// Normals and colours are summed in whole multiples of 1 / this.
+constexpr float kNormalUnits = 32767.0F;
+constexpr float kColourUnits = 256.0F;
+constexpr std::size_t kLocks = 256;
+/// Members within 30 degrees of the mean normal lie on the surface of most; where two surfaces are mixed in equal parts
+/// none do.
+constexpr float kFacingCosine = 0.8660254F;
+
+struct SurfaceSums {
+  std::int64_t voxels = 0;
+  std::array<std::int64_t, 3> position{};  ///< From the seed's position.
+  std::array<std::int64_t, 3> normal{};    ///< Signs as the centre's.
+
+  void add(const SurfaceSums& other) {
+    voxels += other.voxels;
+    for (std::size_t i = 0; i < 3; ++i) {
+      position[i] += other.position[i];
+      normal[i] += other.normal[i];
+    }
+  }
+};
+struct Sums {
+  SurfaceSums all;
+  SurfaceSums facing;  ///< Members that lie on the surface of most.
+  std::array<std::int64_t, 3> colour{};
+
+  void add(const Sums& other) {
+    all.add(other.all);
+    facing.add(other.facing);
+    for (std::size_t i = 0; i < 3; ++i) colour[i] += other.colour[i];
+  }
+};
+using HistogramSums = std::array<std::int64_t, kHistogramBins>;
+
+struct SeedOffer {
+  std::uint64_t distance2 = ~std::uint64_t{0};
+  std::uint32_t rank = 0xffffffffU;
+  VoxelPosition position{};
+
+  bool better_than(const SeedOffer& other) const {
+    return distance2 != other.distance2 ? distance2 < other.distance2 : rank < other.rank;
+  }
+};
+
+std::int64_t rounded_mean(std::int64_t sum, std::int64_t n) {  // Half up.
+  const std::int64_t doubled = 2 * sum + n;
+  const std::int64_t q = doubled / (2 * n);
+  return q - (doubled % (2 * n) < 0);
+}
+
+std::array<float, 3> direction(const std::array<std::int64_t, 3>& sum) {
+  const std::array<double, 3> n{static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])};
+  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  std::array<float, 3> unit{};
+  for (std::size_t i = 0; i < 3; ++i) unit[i] = length > 0.0 ? static_cast<float>(n[i] / length) : 0.0F;
+  return unit;
+}
+
+std::int64_t units(float value, float per_one) {
+  return std::lround(value * per_one);
+}
+
+}  // namespace
+
+struct ClusterTable::Impl {
+  struct NewSeed {
+    LatticePoint cell;
+    std::uint32_t rank;
+    ClusterCentre centre;
+    FeatureHistogram histogram;
+  };
+
+  bool histograms = false;
+  std::vector<NewSeed> new_seeds;
+  Clusters clusters;
+  std::vector<std::uint32_t> by_rank;
+  std::vector<Sums> sums;
+  std::vector<HistogramSums> histogram_sums;
+  std::vector<SeedOffer> offers;
+  std::array<std::mutex, kLocks> locks;
+
+  std::mutex& lock_of(std::uint32_t cluster) { return locks[cluster % kLocks]; }
+
+  void order_by_rank() {
+    by_rank.resize(clusters.size());
+    std::iota(by_rank.begin(), by_rank.end(), 0U);
+    std::sort(by_rank.begin(), by_rank.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return clusters.seed_ranks[a] < clusters.seed_ranks[b]; });
+  }
+
+  /// Neighbours in Z-order mostly share a cluster: a run of them takes its lock once.
+  void add_run(const VoxelTile& tile, const VoxelFeatures& features, std::uint32_t cluster,
+               std::span<const std::uint32_t> voxels) {
+    Sums run;
+    HistogramSums bins{};
+    const ClusterCentre& centre = clusters.centres[cluster];
+    for (const std::uint32_t v : voxels) {
+      const std::array<float, 3>& n = features.normals[v];
+      const float cosine = n[0] * centre.normal[0] + n[1] * centre.normal[1] + n[2] * centre.normal[2];
+      SurfaceSums member{1, {}, {}};
+      for (std::size_t i = 0; i < 3; ++i) {
+        member.position[i] = difference(tile.positions[v][i], clusters.seed_positions[cluster][i]);
+        member.normal[i] = units(cosine < 0.0F ? -n[i] : n[i], kNormalUnits);
+        if (!features.colours.empty()) run.colour[i] += units(features.colours[v][i], kColourUnits);
+      }
+      run.all.add(member);
+      if (std::abs(cosine) >= kFacingCosine) run.facing.add(member);
+      if (histograms) {
+        for (std::size_t i = 0; i < bins.size(); ++i) bins[i] += features.histograms[v][i];
+      }
+    }
+    const std::lock_guard guard(lock_of(cluster));
+    sums[cluster].add(run);
+    if (histograms) {
+      for (std::size_t i = 0; i < bins.size(); ++i) histogram_sums[cluster][i] += bins[i];
+    }
+  }
+
+  VoxelPosition mean_position(std::uint32_t cluster, const SurfaceSums& s) const {
+    VoxelPosition position = clusters.seed_positions[cluster];
+    for (std::size_t i = 0; i < 3; ++i)
+      position[i] += static_cast<std::uint32_t>(rounded_mean(s.position[i], s.voxels));
+    return position;
+  }
+
+  ClusterPlane plane(std::uint32_t cluster) const {
+    const SurfaceSums& s = sums[cluster].facing;
+    if (s.voxels == 0) return {};
+    return {mean_position(cluster, s), direction(s.normal)};
+  }
+
+  void update(std::uint32_t cluster) {
+    const Sums& s = sums[cluster];
+    if (s.all.voxels == 0) return;  // Cannot be: a seed keeps its own voxel.
+    ClusterCentre& centre = clusters.centres[cluster];
+    centre.position = mean_position(cluster, s.all);
+    centre.normal = direction(s.all.normal);
+    for (std::size_t i = 0; i < 3; ++i) {
+      centre.colour[i] =
+          static_cast<float>(static_cast<double>(s.colour[i]) / (kColourUnits * static_cast<double>(s.all.voxels)));
+    }
+    if (histograms) {
+      for (std::size_t i = 0; i < kHistogramBins; ++i)
+        clusters.histograms[cluster][i] =
+            static_cast<std::int16_t>(rounded_mean(histogram_sums[cluster][i], s.all.voxels));
+    }
+  }
+};
+
+ClusterTable::ClusterTable(const SupervoxelParameters& parameters) : impl_(std::make_unique<Impl>()) {
+  impl_->histograms = parameters.features == SupervoxelParameters::Features::kFpfh;
+}
+ClusterTable::~ClusterTable() = default;
+
+void ClusterTable::add_seeds(const VoxelTile& tile, const VoxelFeatures& features, std::span<const Seed> seeds) {
+  for (const Seed& seed : seeds) {
+    Impl::NewSeed s{
+        seed.cell, tile.ranks[seed.voxel], {tile.positions[seed.voxel], features.normals[seed.voxel], {}}, {}};
+    if (!features.colours.empty()) s.centre.colour = features.colours[seed.voxel];
+    if (impl_->histograms) s.histogram = features.histograms[seed.voxel];
+    impl_->new_seeds.push_back(s);
+  }
+}
+
+void ClusterTable::fix_seeds() {
+  std::sort(impl_->new_seeds.begin(), impl_->new_seeds.end(),
+            [](const auto& a, const auto& b) { return a.cell < b.cell; });
+  Clusters& c = impl_->clusters;
+  for (const Impl::NewSeed& s : impl_->new_seeds) {
+    c.seed_ranks.push_back(s.rank);
+    c.seed_positions.push_back(s.centre.position);
+    c.centres.push_back(s.centre);
+    if (impl_->histograms) c.histograms.push_back(s.histogram);
+  }
+  impl_->new_seeds = {};
+  impl_->order_by_rank();
+  impl_->sums.assign(c.size(), {});
+  impl_->offers.assign(c.size(), {});
+  if (impl_->histograms) impl_->histogram_sums.assign(c.size(), {});
+}
+
+const Clusters& ClusterTable::clusters() const {
+  return impl_->clusters;
+}
+std::span<const std::uint32_t> ClusterTable::by_seed_rank() const {
+  return impl_->by_rank;
+}
+
+void ClusterTable::add_members(const VoxelTile& tile, const VoxelFeatures& features,
+                               std::span<const std::uint32_t> clusters_of) {
+  parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> run;
+    std::uint32_t cluster = kNoCluster;
+    const auto flush = [&] {
+      if (!run.empty()) impl_->add_run(tile, features, cluster, run);
+      run.clear();
+    };
+    for (std::size_t v = begin; v < end; ++v) {
+      if (tile.core[v] == 0 || clusters_of[v] == kNoCluster) continue;
+      if (clusters_of[v] != cluster) flush();
+      cluster = clusters_of[v];
+      run.push_back(static_cast<std::uint32_t>(v));
+    }
+    flush();
+  });
+}
+
+std::vector<ClusterPlane> ClusterTable::planes() const {
+  std::vector<ClusterPlane> planes(impl_->clusters.size());
+  for (std::uint32_t c = 0; c < planes.size(); ++c) planes[c] = impl_->plane(c);
+  return planes;
+}
+
+void ClusterTable::update_centres() {
+  parallel_for_chunks(impl_->clusters.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) impl_->update(static_cast<std::uint32_t>(c));
+  });
+  impl_->sums.assign(impl_->clusters.size(), {});
+  if (impl_->histograms) impl_->histogram_sums.assign(impl_->clusters.size(), {});
+}
+
+void ClusterTable::offer_seeds(const VoxelTile& tile, std::span<const std::uint32_t> clusters_of) {
+  parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    SeedOffer best;
+    std::uint32_t cluster = kNoCluster;
+    const auto flush = [&] {
+      if (cluster == kNoCluster) return;
+      const std::lock_guard guard(impl_->lock_of(cluster));
+      if (best.better_than(impl_->offers[cluster])) impl_->offers[cluster] = best;
+      best = {};
+    };
+    for (std::size_t v = begin; v < end; ++v) {
+      if (tile.core[v] == 0 || clusters_of[v] == kNoCluster) continue;
+      if (clusters_of[v] != cluster) flush();
+      cluster = clusters_of[v];
+      SeedOffer offer{0, tile.ranks[v], tile.positions[v]};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::int64_t d = difference(tile.positions[v][i], impl_->clusters.centres[cluster].position[i]);
+        offer.distance2 += static_cast<std::uint64_t>(d * d);
+      }
+      if (offer.better_than(best)) best = offer;
+    }
+    flush();
+  });
+}
+
+void ClusterTable::move_seeds() {
+  Clusters& c = impl_->clusters;
+  for (std::uint32_t i = 0; i < c.size(); ++i) {
+    c.seed_ranks[i] = impl_->offers[i].rank;
+    c.seed_positions[i] = impl_->offers[i].position;
+  }
+  impl_->offers.assign(c.size(), {});
+  impl_->order_by_rank();
+}
+
+std::uint64_t ClusterTable::memory_bytes() const {
+  const std::uint64_t each = sizeof(std::uint32_t) * 2 + sizeof(VoxelPosition) + sizeof(ClusterCentre) + sizeof(Sums) +
+                             sizeof(SeedOffer) +
+                             (impl_->histograms ? sizeof(FeatureHistogram) + sizeof(HistogramSums) : 0);
+  return each * impl_->clusters.size() + sizeof(Impl::NewSeed) * impl_->new_seeds.capacity();
+}
+
+}  // namespace arris::merge

@@ -1,0 +1,131 @@
+#include "pipeline/cluster_level.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "features/cluster_growth.h"
+#include "features/leftover_voxels.h"
+#include "features/seed_cells.h"
+#include "merge/cluster_table.h"
+
+namespace arris::pipeline {
+namespace {
+
+/// Bytes of a cluster in all tables, for predictions before the clusters are known.
+constexpr std::uint64_t kClusterBytes = 350;
+constexpr std::uint64_t kClusterHistogramBytes = 400;
+
+class Clustering {
+ public:
+  Clustering(VoxelTileWalk& walk, ProgressSink& progress)
+      : walk_(walk),
+        parameters_(walk.request().parameters),
+        scale_(walk.request().scale),
+        progress_(progress),
+        table_(parameters_) {}
+
+  ClusterLevel run(bool group_leftovers, std::uint64_t kept_bytes) {
+    const std::uint32_t voxels = walk_.store().size();
+    level_.clusters_of.assign(voxels, kNoCluster);
+    if (voxels == 0) return std::move(level_);
+    kept_bytes += sizeof(std::uint32_t) * std::uint64_t{voxels};
+    const std::uint64_t likely = likely_clusters() * cluster_bytes();
+    walk_.plan(kept_bytes + likely);
+    find_all_seeds(kept_bytes);
+    if (table_.memory_bytes() > likely) walk_.plan(kept_bytes + table_.memory_bytes());
+    for (int iteration = 1; iteration < parameters_.iterations; ++iteration) {
+      grow(false);
+      table_.update_centres();
+      move_seeds();
+    }
+    grow(true);
+    level_.count = table_.clusters().size();
+    level_.planes = table_.planes();
+    level_.seed_ranks = table_.clusters().seed_ranks;
+    if (group_leftovers) number_groups();
+    return std::move(level_);
+  }
+
+ private:
+  std::uint64_t cluster_bytes() const {
+    const bool histograms = parameters_.features == SupervoxelParameters::Features::kFpfh;
+    return kClusterBytes + (histograms ? kClusterHistogramBytes : 0);
+  }
+  std::uint64_t likely_clusters() const {
+    const double cells = static_cast<double>(scale_.seed_steps) / scale_.voxel_steps;
+    return static_cast<std::uint64_t>(2.0 * walk_.store().size() / (cells * cells)) + 1000;
+  }
+
+  void find_all_seeds(std::uint64_t kept_bytes) {
+    progress_.phase("seeds", walk_.store().size());
+    std::uint64_t seeds = 0;
+    walk_.for_each(true, [&](const LoadedTile& tile) {
+      const std::vector<Seed> found = find_seeds(tile.voxels, scale_);
+      seeds += found.size();
+      // Before they take the memory, not after.
+      walk_.require(kept_bytes + seeds * cluster_bytes());
+      table_.add_seeds(tile.voxels, tile.features, found);
+    });
+    table_.fix_seeds();
+  }
+
+  void grow(bool last) {
+    progress_.phase("supervoxels", walk_.store().size());
+    walk_.for_each(true, [&](const LoadedTile& tile) {
+      const std::vector<TileSeed> seeds = tile_seeds(tile.voxels, table_.clusters(), table_.by_seed_rank());
+      std::vector<std::uint32_t> clusters_of =
+          grow_clusters(tile.voxels, tile.features, table_.clusters(), seeds, parameters_, scale_);
+      if (last) {
+        const std::vector<OrphanVoxel> orphans =
+            settle_leftovers(tile.voxels, tile.features, table_.clusters(), parameters_, scale_, clusters_of);
+        orphans_.insert(orphans_.end(), orphans.begin(), orphans.end());
+      }
+      table_.add_members(tile.voxels, tile.features, clusters_of);
+      for (std::size_t v = 0; v < clusters_of.size(); ++v) {
+        if (tile.voxels.core[v] != 0) level_.clusters_of[tile.voxels.ranks[v]] = clusters_of[v];
+      }
+    });
+  }
+
+  void move_seeds() {
+    walk_.for_each(false, [&](const LoadedTile& tile) {
+      std::vector<std::uint32_t> clusters_of(tile.voxels.size());
+      for (std::size_t v = 0; v < clusters_of.size(); ++v) clusters_of[v] = level_.clusters_of[tile.voxels.ranks[v]];
+      table_.offer_seeds(tile.voxels, clusters_of);
+    });
+    table_.move_seeds();
+  }
+
+  /// Groups of leftovers are numbered after the clusters, by the smallest rank in each.
+  void number_groups() {
+    std::vector<std::uint32_t> roots;
+    roots.reserve(orphans_.size());
+    for (const OrphanVoxel& orphan : orphans_) roots.push_back(orphan.root_rank);
+    std::sort(roots.begin(), roots.end());
+    roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
+    for (const OrphanVoxel& orphan : orphans_) {
+      const auto at = std::lower_bound(roots.begin(), roots.end(), orphan.root_rank);
+      level_.clusters_of[orphan.rank] = level_.count + static_cast<std::uint32_t>(at - roots.begin());
+    }
+    level_.groups = static_cast<std::uint32_t>(roots.size());
+    level_.count += level_.groups;
+  }
+
+  VoxelTileWalk& walk_;
+  const SupervoxelParameters& parameters_;
+  const SupervoxelScale& scale_;
+  ProgressSink& progress_;
+  merge::ClusterTable table_;
+  std::vector<OrphanVoxel> orphans_;
+  ClusterLevel level_;
+};
+
+}  // namespace
+
+ClusterLevel cluster_level(VoxelTileWalk& walk, bool group_leftovers, std::uint64_t kept_bytes,
+                           ProgressSink& progress) {
+  return Clustering(walk, progress).run(group_leftovers, kept_bytes);
+}
+
+}  // namespace arris::pipeline

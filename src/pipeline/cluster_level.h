@@ -1,0 +1,28 @@
+#pragma once
+/// @file Supervoxels on voxels of one size.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/progress.h"
+#include "features/point_refinement.h"
+#include "pipeline/voxel_tile_walk.h"
+
+namespace arris::pipeline {
+
+struct ClusterLevel {
+  std::vector<std::uint32_t> clusters_of;  ///< Per voxel by rank: below `count`, or kNoCluster.
+  std::uint32_t count = 0;
+  std::vector<ClusterPlane> planes;       ///< Per cluster that grew from a seed; no plane for the others.
+  std::vector<std::uint32_t> seed_ranks;  ///< Likewise.
+  std::uint32_t groups = 0;               ///< Clusters that grew from no seed; the last ones.
+};
+
+/// Passes over tiles of voxels: seeds; per iteration growth with sums, then new seeds; growth of the last iteration,
+/// whose leftovers join what they touch. Tiles see scale.halo_voxels() around their core in each pass, and what goes
+/// from one pass to the next is global (merge/cluster_table.h), so the tiles cannot matter.
+/// @param group_leftovers  what is still left becomes groups of connected voxels; else it stays without cluster.
+/// @param kept_bytes       memory that the caller holds beside this.
+ClusterLevel cluster_level(VoxelTileWalk& walk, bool group_leftovers, std::uint64_t kept_bytes, ProgressSink& progress);
+
+}  // namespace arris::pipeline

@@ -1,0 +1,139 @@
+#include "pipeline/supervoxel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/process_memory.h"
+#include "pipeline/label_points.h"
+#include "pipeline/run_folder.h"
+#include "pipeline/run_support.h"
+#include "pipeline/supervoxel_scene.h"
+#include "pipeline/supervoxel_text.h"
+#include "pipeline/voxel_memory.h"
+
+namespace arris::pipeline {
+namespace {
+
+std::vector<std::unique_ptr<io::KeptPointWriter>> open_writers(const SupervoxelRequest& request,
+                                                               const io::InputSet& inputs, SupervoxelReport& report) {
+  io::OutputOptions options;
+  options.overwrite = request.overwrite;
+  options.every_point = true;
+  options.mixed_crs = request.mixed_crs;
+  std::vector<std::unique_ptr<io::KeptPointWriter>> writers;
+  for (const std::filesystem::path& output : request.outputs) {
+    writers.push_back(io::create_kept_point_writer(
+        output, inputs, {{"SupervoxelId", ColumnType::kUint32, "supervoxel, 0 none"}}, options));
+    report.outputs.push_back(output.string());
+  }
+  return writers;
+}
+
+}  // namespace
+
+SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSink& progress,
+                                   const CancelToken& cancel) {
+  if (request.outputs.empty()) throw ConfigError("no output given; add -o FILE");
+  require_text_format(request.table, "--table");
+  require_text_format(request.adjacency, "--adjacency");
+  SupervoxelReport report;
+  report.parameters = request.parameters;
+  validate(report.parameters);
+  RecordingSink sink(progress, report);
+  Stopwatch watch(report);
+  const double cpu_before = process_cpu_seconds();
+  const std::vector<std::filesystem::path> paths = io::expand_inputs(request.inputs);
+  refuse_bad_outputs(request, paths);
+  io::InputSet inputs(paths, request.tolerance);
+  ProblemWarnings problems(inputs, sink);
+  problems.forward();
+  std::vector<std::unique_ptr<io::KeptPointWriter>> writers = open_writers(request, inputs, report);
+  inputs.exclude(request.exclusion);
+  const ThreadLimit limit(request.threads);
+
+  const tiling::Survey survey = tiling::survey_inputs(inputs, {request.lattice_step}, sink, cancel);
+  problems.forward();
+  describe_inputs(survey, inputs, request, report);
+  warn_of_dropped(report, sink);
+  const double spacing = request.spacing > 0.0 ? request.spacing : survey.spacing;
+  const SupervoxelScale scale = resolve_scale(report.parameters, spacing, survey.lattice);
+  report.predicted_temp_bytes = predicted_voxel_temp_bytes(survey, scale);
+  check_temp_space(report.predicted_temp_bytes, request, sink);
+  watch.lap("survey");
+
+  const RunFolder folder(request.temp_dir);
+  const SupervoxelScene scene =
+      make_supervoxel_scene(inputs, survey,
+                            {report.parameters, scale, request.memory_bytes, request.tile_points_cap, request.threads,
+                             !request.adjacency.empty(), folder.path()},
+                            sink, cancel);
+  const SupervoxelStageResult& clusters = scene.clusters;
+  report.colours = scene.colours;
+  report.voxels = scene.store.size();
+  report.peak_temp_bytes = scene.peak_temp_bytes;
+  report.supervoxels = clusters.count;
+  report.coarse = clusters.coarse;
+  report.groups = clusters.groups;
+  report.neighbour_pairs = clusters.adjacency.size();
+  report.tiles = clusters.tiles;
+  report.largest_tile_voxels = clusters.largest_tile_voxels;
+  report.predicted_peak_bytes = scene.predicted_peak_bytes;
+  watch.lap("supervoxels");
+
+  const tiling::LatticeMapper mapper(inputs.sources(), survey.lattice);
+  const VoxelLabels labels = scene.labels();
+  if (!request.table.empty()) {
+    merge::SupervoxelMoments moments(clusters.count, 4 * scale.seed_steps);
+    sum_moments(inputs, mapper, labels, moments, sink, cancel);
+    write_supervoxel_table(request.table, moments.table(clusters.adjacency), moments, survey.lattice,
+                           request.overwrite);
+    watch.lap("table");
+  }
+  if (!request.adjacency.empty()) write_adjacency(request.adjacency, clusters.adjacency, request.overwrite);
+  report.points_out = write_labels(inputs, mapper, labels, writers, sink, cancel);
+  inputs.check_unchanged();
+  for (const auto& writer : writers) {
+    writer->commit();
+    for (const std::string& warning : writer->warnings()) sink.warning("not-carried", warning);
+  }
+  watch.lap("write");
+  hash_inputs(request, report);
+  report.cpu_seconds = process_cpu_seconds() - cpu_before;
+  report.peak_resident_bytes = peak_resident_bytes();
+  return report;
+}
+
+nlohmann::ordered_json supervoxel_json(const SupervoxelParameters& p) {
+  using Json = nlohmann::ordered_json;
+  const bool fpfh = p.features == SupervoxelParameters::Features::kFpfh;
+  Json json{{"features", fpfh ? "fpfh" : "normal"},
+            {"voxel", p.voxel},
+            {"seed", p.seed},
+            {"iterations", p.iterations},
+            {"seed_support", p.seed_support}};
+  json["weights"] = fpfh
+                        ? Json{{"lambda", p.lambda}, {"mu", p.mu}, {"epsilon", p.epsilon}, {"m", p.colour_scale}}
+                        : Json{{"normal", p.normal_weight}, {"spatial", p.spatial_weight}, {"colour", p.colour_weight}};
+  return json;
+}
+
+nlohmann::ordered_json to_json(const SupervoxelReport& r) {
+  nlohmann::ordered_json json = report_head(r, "arris-supervoxel-report/1");
+  json["parameters"] = supervoxel_json(r.parameters);
+  json["colour"] = r.colours;
+  json["points"] = {{"in", r.points_in}, {"out", r.points_out}, {"unlabelled", dropped_json(r)}};
+  json["voxels"] = r.voxels;
+  json["supervoxels"] = {{"count", r.supervoxels},
+                         {"on_coarser_voxels", r.coarse},
+                         {"without_seed", r.groups},
+                         {"neighbour_pairs", r.neighbour_pairs}};
+  json["tiles"] = {{"count", r.tiles}, {"largest_voxels", r.largest_tile_voxels}};
+  append_report_tail(json, r);
+  return json;
+}
+
+}  // namespace arris::pipeline

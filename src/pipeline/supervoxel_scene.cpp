@@ -1,0 +1,28 @@
+#include "pipeline/supervoxel_scene.h"
+
+#include <utility>
+
+#include "core/process_memory.h"
+#include "pipeline/voxel_memory.h"
+#include "pipeline/voxel_stage.h"
+
+namespace arris::pipeline {
+
+SupervoxelScene make_supervoxel_scene(io::InputSet& inputs, const tiling::Survey& survey,
+                                      const SupervoxelSceneRequest& request, ProgressSink& progress,
+                                      const CancelToken& cancel) {
+  const VoxelMemory memory(request.memory_bytes);
+  VoxelStageResult voxels = run_voxel_stage(inputs, survey, request.scale, request.parameters.colour, request.folder,
+                                            memory, request.threads, progress, cancel);
+  release_free_memory();
+  const SupervoxelStageRequest stage{
+      {request.parameters, request.scale, voxels.colours, memory.stage_bytes(), request.tile_voxels_cap},
+      request.adjacency,
+      request.folder};
+  SupervoxelStageResult clusters = run_supervoxel_stage(voxels.store, stage, progress, cancel);
+  release_free_memory();
+  const std::uint64_t predicted = memory.predicted_peak_bytes(clusters.predicted_bytes);
+  return {std::move(voxels.store), std::move(clusters), voxels.colours, voxels.peak_temp_bytes, predicted};
+}
+
+}  // namespace arris::pipeline

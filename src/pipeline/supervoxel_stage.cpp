@@ -1,0 +1,117 @@
+#include "pipeline/supervoxel_stage.h"
+
+#include <algorithm>
+
+#include "core/process_memory.h"
+#include "features/clusters.h"
+#include "pipeline/cluster_level.h"
+#include "pipeline/coarser_voxels.h"
+
+namespace arris::pipeline {
+namespace {
+
+/// Takes turns with coarser voxels until every voxel of `walk` has a cluster.
+ClusterLevel cluster_all(VoxelTileWalk& walk, const SupervoxelStageRequest& request, std::uint64_t kept_bytes,
+                         ProgressSink& progress, const CancelToken& cancel) {
+  const TileWalkRequest& here = walk.request();
+  const bool coarsest = !can_coarsen(here.scale);
+  ClusterLevel level = cluster_level(walk, coarsest, kept_bytes, progress);
+  if (coarsest || std::find(level.clusters_of.begin(), level.clusters_of.end(), kNoCluster) == level.clusters_of.end())
+    return level;
+  walk.drop();
+  // Half of what is left: the other half is for reading these voxels.
+  const std::uint64_t here_bytes = kept_bytes + sizeof(std::uint32_t) * level.clusters_of.size();
+  const std::uint64_t left_bytes = here.memory_bytes > here_bytes ? here.memory_bytes - here_bytes : 0;
+  const tiling::VoxelStore coarse = coarser_voxels(walk.store(), walk.tiles(), level.clusters_of, here.colours,
+                                                   request.folder, left_bytes / 2, cancel);
+  TileWalkRequest there = here;
+  there.scale = coarser(here.scale, here.parameters);
+  VoxelTileWalk coarse_walk(coarse, there, progress, cancel);
+  const std::uint64_t kept = here_bytes + coarse.index().memory_bytes();
+  const ClusterLevel coarse_level = cluster_all(coarse_walk, request, kept, progress, cancel);
+  inherit_clusters(walk.store(), walk.tiles(), coarse, coarse_level.clusters_of, level.count, level.clusters_of,
+                   cancel);
+  level.count += coarse_level.count;
+  level.groups = coarse_level.groups;
+  return level;
+}
+
+class Stage {
+ public:
+  Stage(const tiling::VoxelStore& store, const SupervoxelStageRequest& request, ProgressSink& progress,
+        const CancelToken& cancel)
+      : request_(request), progress_(progress), cancel_(cancel), walk_(store, request.walk, progress, cancel) {}
+
+  SupervoxelStageResult run() {
+    ClusterLevel level = cluster_all(walk_, request_, 0, progress_, cancel_);
+    result_.tiles = walk_.tiles().tiles.size();
+    result_.largest_tile_voxels = walk_.largest_tile_voxels();
+    result_.predicted_bytes = walk_.predicted_bytes();
+    number(level);
+    look_at_neighbours(level.seed_ranks);
+    return std::move(result_);
+  }
+
+ private:
+  /// Dense ids in the order of ranks, in place.
+  void number(ClusterLevel& level) {
+    std::vector<std::uint32_t> id_of(level.count, 0);
+    for (std::uint32_t& cluster : level.clusters_of) {
+      std::uint32_t& id = id_of[cluster];
+      if (id == 0) id = ++result_.count;
+      cluster = id;
+    }
+    result_.ids = std::move(level.clusters_of);
+    result_.planes.resize(std::size_t{result_.count} + 1);
+    for (std::size_t cluster = 0; cluster < level.planes.size(); ++cluster)
+      result_.planes[id_of[cluster]] = level.planes[cluster];
+    result_.groups = level.groups;
+    result_.coarse = level.count - static_cast<std::uint32_t>(level.planes.size());
+  }
+
+  /// Pairs of neighbours, and voxels that several surfaces share.
+  void look_at_neighbours(const std::vector<std::uint32_t>& seed_ranks) {
+    progress_.phase("neighbours", result_.ids.size());
+    result_.shared.assign((result_.ids.size() + 63) / 64, 0);
+    auto& pairs = result_.adjacency;
+    walk_.for_each(false, [&](const LoadedTile& tile) {
+      for (std::size_t v = 0; v < tile.voxels.size(); ++v) {
+        if (tile.voxels.core[v] != 0) look_around(tile.voxels, v);
+      }
+      std::sort(pairs.begin(), pairs.end());
+      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    });
+    // Every supervoxel keeps at least the points of one voxel.
+    for (const std::uint32_t rank : seed_ranks) result_.shared[rank >> 6] &= ~(std::uint64_t{1} << (rank & 63));
+  }
+
+  void look_around(const VoxelTile& tile, std::size_t v) {
+    const std::uint32_t rank = tile.ranks[v];
+    const std::uint32_t id = result_.ids[rank];
+    std::uint32_t last = id;
+    bool shared = false;
+    for (const std::uint32_t u : tile.neighbours_of(v)) {
+      const std::uint32_t other = result_.ids[tile.ranks[u]];
+      if (other == id || other == last) continue;
+      last = other;
+      if (request_.adjacency) result_.adjacency.emplace_back(std::min(id, other), std::max(id, other));
+      shared = shared || planes_differ(result_.planes[id], result_.planes[other], request_.walk.scale.voxel_steps);
+    }
+    if (shared) result_.shared[rank >> 6] |= std::uint64_t{1} << (rank & 63);
+  }
+
+  const SupervoxelStageRequest& request_;
+  ProgressSink& progress_;
+  const CancelToken& cancel_;
+  VoxelTileWalk walk_;
+  SupervoxelStageResult result_;
+};
+
+}  // namespace
+
+SupervoxelStageResult run_supervoxel_stage(const tiling::VoxelStore& store, const SupervoxelStageRequest& request,
+                                           ProgressSink& progress, const CancelToken& cancel) {
+  return Stage(store, request, progress, cancel).run();
+}
+
+}  // namespace arris::pipeline

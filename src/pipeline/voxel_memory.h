@@ -1,0 +1,37 @@
+#pragma once
+/// @file How the memory budget is divided when points become voxels and voxels supervoxels.
+
+#include <cstdint>
+
+#include "features/supervoxel_parameters.h"
+#include "tiling/survey.h"
+
+namespace arris::pipeline {
+
+/// The voxel table is freed before supervoxels grow, so each gets what the other leaves.
+class VoxelMemory {
+ public:
+  /// Throws BudgetError if not even the least voxel table fits.
+  explicit VoxelMemory(std::uint64_t budget_bytes);
+  /// Of the table that sums points per voxel.
+  std::uint64_t table_bytes() const { return table_bytes_; }
+  /// Most that the index of all voxels may take.
+  std::uint64_t index_bytes() const { return index_bytes_; }
+  /// For the clustering, as things stand now: what is resident is deducted.
+  std::uint64_t stage_bytes() const;
+  std::uint64_t predicted_peak_bytes(std::uint64_t stage_bytes) const;
+
+ private:
+  std::uint64_t usable_bytes_;
+  std::uint64_t table_bytes_;
+  std::uint64_t index_bytes_;
+  mutable std::uint64_t before_stage_bytes_ = 0;
+};
+
+/// What a SupervoxelScene and its table keep in memory; for plans, before the voxels are known.
+std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const SupervoxelScale& scale);
+
+/// Runs and store of the voxels, for inputs whose neighbours in space are neighbours in the file.
+std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale);
+
+}  // namespace arris::pipeline

@@ -1,0 +1,80 @@
+#include "pipeline/voxel_tile_walk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/process_memory.h"
+#include "core/text.h"
+#include "tiling/voxel_tiles.h"
+
+namespace arris::pipeline {
+namespace {
+
+/// Full intensity of the colours of voxels.
+constexpr double kFullColour = 65535.0;
+/// A tile is not cut below this many voxels for want of memory.
+constexpr std::uint64_t kLeastTileVoxels = 20'000;
+
+/// Neighbours of a voxel, from how full the blocks are: about 8 to 14 on surfaces, 26 in solids. Rather too many.
+double likely_neighbours(const tiling::VoxelIndex& index) {
+  constexpr double kBlockVoxels = 512.0;
+  double filled = 0.0;
+  for (std::size_t i = 0; i < index.blocks(); ++i) {
+    const double voxels = index.block(i).voxels;
+    filled += voxels * voxels / kBlockVoxels;
+  }
+  const double share = index.size() == 0 ? 0.0 : filled / index.size();
+  return 8.0 + 18.0 * std::min(1.0, 2.0 * share);
+}
+
+}  // namespace
+
+void VoxelTileWalk::plan(std::uint64_t kept_bytes) {
+  const double each =
+      supervoxel_bytes_per_voxel(request_.parameters.features, request_.colours, likely_neighbours(store_.index()));
+  const std::uint64_t room = request_.memory_bytes > kept_bytes ? request_.memory_bytes - kept_bytes : 0;
+  tiling::VoxelPlanRequest tiles;
+  tiles.max_voxels = std::max(kLeastTileVoxels, static_cast<std::uint64_t>(static_cast<double>(room) / each));
+  tiles.max_core_voxels = request_.tile_voxels_cap;
+  tiles.halo_voxels = request_.scale.halo_voxels();
+  plan_ = tiling::plan_voxel_tiles(store_.index(), tiles);
+  loaded_.reset();
+  predicted_bytes_ = kept_bytes + static_cast<std::uint64_t>(each * static_cast<double>(largest_tile_voxels()));
+  require(predicted_bytes_);
+}
+
+void VoxelTileWalk::require(std::uint64_t bytes) const {
+  if (bytes <= request_.memory_bytes) return;
+  throw BudgetError(fmt::format(
+      "{} voxels and their supervoxels need {} more memory than --memory leaves; raise it by at least so much, "
+      "or choose larger --voxel or --seed",
+      grouped(store_.size()), human_bytes(bytes - request_.memory_bytes)));
+}
+
+std::uint64_t VoxelTileWalk::largest_tile_voxels() const {
+  return std::min<std::uint64_t>(plan_.largest_covered_points, store_.size());
+}
+
+void VoxelTileWalk::for_each(bool with_features, const std::function<void(const LoadedTile&)>& use) {
+  for (const tiling::PlannedTile& tile : plan_.tiles) {
+    cancel_.check();
+    if (plan_.tiles.size() > 1 || !loaded_) {
+      drop();
+      loaded_.emplace(LoadedTile{tiling::load_voxel_tile(store_, tile, request_.colours), {}});
+    }
+    if (with_features && loaded_->features.normals.empty())
+      loaded_->features = voxel_features(loaded_->voxels, request_.parameters, kFullColour);
+    use(*loaded_);
+    progress_.advance(tile.core_points);
+  }
+  if (plan_.tiles.size() > 1) drop();
+}
+
+void VoxelTileWalk::drop() {
+  loaded_.reset();
+  release_free_memory();
+}
+
+}  // namespace arris::pipeline

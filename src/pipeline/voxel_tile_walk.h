@@ -1,0 +1,62 @@
+#pragma once
+/// @file Goes over the voxels of a scan tile by tile, as often as it takes.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "core/cancel.h"
+#include "core/progress.h"
+#include "features/supervoxel_parameters.h"
+#include "features/voxel_features.h"
+#include "tiling/tile_plan.h"
+#include "tiling/voxel_store.h"
+
+namespace arris::pipeline {
+
+struct LoadedTile {
+  VoxelTile voxels;
+  VoxelFeatures features;  ///< Empty unless asked for.
+};
+
+struct TileWalkRequest {
+  SupervoxelParameters parameters;
+  SupervoxelScale scale;
+  bool colours = false;
+  std::uint64_t memory_bytes = 0;     ///< For tiles and what the caller keeps beside them.
+  std::uint64_t tile_voxels_cap = 0;  ///< 0: none.
+};
+
+/// One tile at a time is in memory; a lone one stays there between walks. Not thread-safe.
+class VoxelTileWalk {
+ public:
+  VoxelTileWalk(const tiling::VoxelStore& store, const TileWalkRequest& request, ProgressSink& progress,
+                const CancelToken& cancel)
+      : store_(store), request_(request), progress_(progress), cancel_(cancel) {}
+
+  const tiling::VoxelStore& store() const { return store_; }
+  const TileWalkRequest& request() const { return request_; }
+
+  /// Cuts tiles (again). @param kept_bytes  what the caller keeps. Throws BudgetError if that and a tile do not fit.
+  void plan(std::uint64_t kept_bytes);
+  /// Throws BudgetError if so much does not fit.
+  void require(std::uint64_t bytes) const;
+  const tiling::TilePlan& tiles() const { return plan_; }
+  std::uint64_t predicted_bytes() const { return predicted_bytes_; }
+  std::uint64_t largest_tile_voxels() const;
+
+  /// Calls use(tile) for every tile.
+  void for_each(bool with_features, const std::function<void(const LoadedTile&)>& use);
+  void drop();  ///< Frees the tile that is kept, if any.
+
+ private:
+  const tiling::VoxelStore& store_;
+  TileWalkRequest request_;
+  ProgressSink& progress_;
+  const CancelToken& cancel_;
+  tiling::TilePlan plan_;
+  std::optional<LoadedTile> loaded_;
+  std::uint64_t predicted_bytes_ = 0;
+};
+
+}  // namespace arris::pipeline

@@ -1,0 +1,107 @@
+#include "tiling/voxel_index.h"
+
+#include <algorithm>
+
+#include "tiling/voxel_hash.h"
+
+namespace arris::tiling {
+namespace {
+
+constexpr std::size_t kSlotsPerBlock = 2;
+
+}  // namespace
+
+void VoxelIndex::append(const LatticePoint& key) {
+  const LatticePoint block{key.x >> kLog2, key.y >> kLog2, key.z >> kLog2};
+  if (blocks_.size() == 0 || !(blocks_.back().key == block)) {
+    if (size_ == 0) least_ = most_ = key;
+    blocks_.push_back({block, size_, 0, static_cast<std::uint32_t>(words_.size()), 0});
+  }
+  Entry& entry = blocks_.back();
+  const std::uint32_t place = place_in_block(key);
+  const std::uint32_t part = place >> 6;
+  if ((entry.parts >> (24 + part) & 1) == 0) {
+    // Parts come in order: all that was before, of words and voxels, is known.
+    if (part > 0) {
+      entry.parts |= (static_cast<std::uint32_t>(words_.size()) - entry.first_word) << 3 * (part - 1);
+      entry.before |= std::uint64_t{size_ - entry.first_rank} << 9 * (part - 1);
+    }
+    entry.parts |= 1U << (24 + part);
+    words_.push_back(0);
+  }
+  words_.back() |= std::uint64_t{1} << (place & 63);
+  least_ = {std::min(least_.x, key.x), std::min(least_.y, key.y), std::min(least_.z, key.z)};
+  most_ = {std::max(most_.x, key.x), std::max(most_.y, key.y), std::max(most_.z, key.z)};
+  ++size_;
+}
+
+void VoxelIndex::finish() {
+  if (size_ == 0) return;
+  bounds_.include(least_);
+  bounds_.include(most_);
+  blocks_.shrink_to_fit();
+  words_.shrink_to_fit();
+  slots_ = HashSlots(blocks_.size() * kSlotsPerBlock, blocks_.size());
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const std::uint32_t hash = voxel_hash(blocks_[i].key);
+    slots_.set(slots_.find(hash, [](std::uint32_t) { return false; }), hash, static_cast<std::uint32_t>(i));
+  }
+}
+
+std::uint32_t VoxelIndex::find_block(const LatticePoint& block) const {
+  if (size_ == 0) return kNone;
+  return slots_.at(slots_.find(voxel_hash(block), [&](std::uint32_t i) { return blocks_[i].key == block; }));
+}
+
+void VoxelIndex::ranks_around(const LatticePoint& key, std::uint32_t& hint,
+                              std::array<std::uint32_t, 27>& ranks) const {
+  // Per axis the three positions lie in one block or two.
+  struct Axis {
+    std::array<std::int32_t, 2> blocks;
+    int count;
+    std::array<std::uint32_t, 3> which, place;
+  };
+  std::array<Axis, 3> axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    Axis& a = axes[axis];
+    const std::int64_t first = std::int64_t{key[axis]} - 1;  // Blocks beyond int32 do not exist and are not found.
+    a.blocks = {static_cast<std::int32_t>(first >> kLog2), static_cast<std::int32_t>((first + 2) >> kLog2)};
+    a.count = a.blocks[0] == a.blocks[1] ? 1 : 2;
+    for (int i = 0; i < 3; ++i) {
+      a.which[i] = (first + i) >> kLog2 != a.blocks[0];
+      a.place[i] = std::uint32_t{kSpread[(first + i) & 7]} << (2 - axis);
+    }
+  }
+  std::array<const Entry*, 8> entries;
+  for (int i = 0; i < axes[0].count; ++i) {
+    for (int j = 0; j < axes[1].count; ++j) {
+      for (int k = 0; k < axes[2].count; ++k) {
+        const LatticePoint block{axes[0].blocks[i], axes[1].blocks[j], axes[2].blocks[k]};
+        const bool hinted = hint < blocks_.size() && blocks_[hint].key == block;
+        const std::uint32_t found = hinted ? hint : find_block(block);
+        entries[4 * i + 2 * j + k] = found == kNone ? nullptr : &blocks_[found];
+      }
+    }
+  }
+  std::size_t at = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k < 3; ++k, ++at) {
+        const Entry* const entry = entries[4 * axes[0].which[i] + 2 * axes[1].which[j] + axes[2].which[k]];
+        ranks[at] = entry ? rank_in(*entry, axes[0].place[i] | axes[1].place[j] | axes[2].place[k]) : kNone;
+      }
+    }
+  }
+  // The block of the voxel itself is the best guess for the next one.
+  if (const Entry* const own = entries[4 * axes[0].which[1] + 2 * axes[1].which[1] + axes[2].which[1]]) {
+    hint = static_cast<std::uint32_t>(own - &blocks_[0]);
+  }
+}
+
+VoxelIndex::Block VoxelIndex::block(std::size_t i) const {
+  const Entry& entry = blocks_[i];
+  const std::uint32_t end = i + 1 < blocks_.size() ? blocks_[i + 1].first_rank : size_;
+  return {entry.key, entry.first_rank, end - entry.first_rank};
+}
+
+}  // namespace arris::tiling

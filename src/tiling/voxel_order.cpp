@@ -1,0 +1,102 @@
+#include "tiling/voxel_order.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "tiling/morton.h"
+#include "tiling/z_order_key.h"
+
+namespace arris::tiling {
+namespace {
+
+constexpr int kDigitBits = 11;
+constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+constexpr int kMostPasses = 6;
+using Counts = std::array<std::uint32_t, kDigits>;
+
+/// A key and an index in one word.
+struct Packed {
+  PageArray<std::uint64_t> words;
+  int index_bits;
+
+  Packed(std::size_t size, int bits) : words(size), index_bits(bits) {}
+  std::uint64_t key(std::size_t i) const { return words[i] >> index_bits; }
+  std::uint32_t index(std::size_t i) const {
+    return static_cast<std::uint32_t>(words[i] & ((std::uint64_t{1} << index_bits) - 1));
+  }
+  void set(std::size_t i, std::uint64_t key, std::uint32_t index) { words[i] = key << index_bits | index; }
+};
+
+/// A key and an index that do not fit one word.
+struct Apart {
+  PageArray<std::uint64_t> keys;
+  PageArray<std::uint32_t> indices;
+
+  Apart(std::size_t size, int) : keys(size), indices(size) {}
+  std::uint64_t key(std::size_t i) const { return keys[i]; }
+  std::uint32_t index(std::size_t i) const { return indices[i]; }
+  void set(std::size_t i, std::uint64_t key, std::uint32_t index) {
+    keys[i] = key;
+    indices[i] = index;
+  }
+};
+
+/// Lowest digit first.
+template <class Elements>
+PageArray<std::uint32_t> radix_order(std::span<const VoxelSums> sums, const ZOrderKey& key_of, int index_bits) {
+  const std::size_t size = sums.size();
+  const int passes = (key_of.bits() + kDigitBits - 1) / kDigitBits;
+  const auto digit = [](std::uint64_t key, int pass) { return key >> pass * kDigitBits & (kDigits - 1); };
+  std::array<Counts, kMostPasses> counts{};
+  Elements sorted(size, index_bits), spare(size, index_bits);
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint64_t key = key_of(sums[i].key);
+    sorted.set(i, key, static_cast<std::uint32_t>(i));
+    for (int pass = 0; pass < passes; ++pass) ++counts[pass][digit(key, pass)];
+  }
+  for (int pass = 0; pass < passes; ++pass) {
+    Counts& next = counts[pass];
+    if (std::ranges::find(next, size) != next.end()) continue;  // All have the same digit.
+    std::uint32_t begin = 0;
+    for (std::uint32_t& count : next) begin += std::exchange(count, begin);
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::uint64_t key = sorted.key(i);
+      spare.set(next[digit(key, pass)]++, key, sorted.index(i));
+    }
+    std::swap(sorted, spare);
+  }
+  { const Elements gone = std::move(spare); }
+  PageArray<std::uint32_t> order(size);
+  for (std::size_t i = 0; i < size; ++i) order[i] = sorted.index(i);
+  return order;
+}
+
+PageArray<std::uint32_t> compared_order(std::span<const VoxelSums> sums) {
+  PageArray<std::uint32_t> order(sums.size());
+  const std::span<std::uint32_t> indices = order.first(sums.size());
+  std::iota(indices.begin(), indices.end(), 0U);
+  std::ranges::sort(indices, [&](std::uint32_t a, std::uint32_t b) { return z_order_less(sums[a].key, sums[b].key); });
+  return order;
+}
+
+}  // namespace
+
+PageArray<std::uint32_t> z_order_of(std::span<const VoxelSums> sums) {
+  if (sums.empty()) return {};
+  LatticePoint least = sums.front().key, most = least;
+  for (const VoxelSums& s : sums) {
+    least = {std::min(least.x, s.key.x), std::min(least.y, s.key.y), std::min(least.z, s.key.z)};
+    most = {std::max(most.x, s.key.x), std::max(most.y, s.key.y), std::max(most.z, s.key.z)};
+  }
+  const std::optional<ZOrderKey> key_of = ZOrderKey::for_range(least, most);
+  if (!key_of) return compared_order(sums);
+  const int index_bits = static_cast<int>(std::bit_width(sums.size()));
+  return key_of->bits() + index_bits <= 64 ? radix_order<Packed>(sums, *key_of, index_bits)
+                                           : radix_order<Apart>(sums, *key_of, index_bits);
+}
+
+}  // namespace arris::tiling

@@ -1,0 +1,51 @@
+#include "tiling/voxel_run.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace arris::tiling {
+VoxelRun::VoxelRun(std::filesystem::path path, bool colours, std::size_t buffer_bytes)
+    : file_(std::move(path)),
+      record_bytes_(colours ? sizeof(VoxelRecord) : sizeof(VoxelSums)),
+      own_buffer_(std::max(buffer_bytes / record_bytes_, std::size_t{1}) * record_bytes_),
+      buffer_(own_buffer_),
+      hasher_(std::in_place) {}
+
+void VoxelRun::flush() {
+  const auto bytes = std::span<const std::byte>(buffer_.first(used_));
+  hasher_->update(bytes.data(), bytes.size());
+  file_.append(bytes);
+  used_ = 0;
+}
+
+void VoxelRun::close() {
+  flush();
+  digest_ = hasher_->digest();
+  hasher_.reset();
+  file_.close();
+  std::vector<std::byte>().swap(own_buffer_);  // Assigning {} would keep the memory.
+}
+
+void VoxelRun::open(std::span<std::byte> buffer) {
+  file_.reopen();
+  hasher_.emplace();
+  buffer_ = buffer.first(buffer.size() / record_bytes_ * record_bytes_);
+  position_ = 0;
+  used_ = filled_ = 0;
+}
+
+bool VoxelRun::refill() {
+  filled_ = static_cast<std::size_t>(std::min<std::uint64_t>(buffer_.size(), file_.size_bytes() - position_));
+  used_ = 0;
+  if (filled_ == 0) {
+    if (hasher_->digest() != digest_) file_.throw_damaged();
+    return false;
+  }
+  const auto bytes = buffer_.first(filled_);
+  file_.read_at(position_, bytes);
+  hasher_->update(bytes.data(), bytes.size());
+  position_ += filled_;
+  return true;
+}
+
+}  // namespace arris::tiling

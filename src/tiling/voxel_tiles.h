@@ -1,0 +1,26 @@
+#pragma once
+/// @file Tiles of voxels: cut by their number, loaded with their halo and neighbours.
+
+#include <cstdint>
+
+#include "core/voxel_tile.h"
+#include "tiling/tile_plan.h"
+#include "tiling/voxel_store.h"
+
+namespace arris::tiling {
+
+struct VoxelPlanRequest {
+  std::uint64_t max_voxels = 0;  ///< Most covered voxels of a tile, >= 1; exceeded by a tile of one 8^3 block only.
+  std::uint64_t max_core_voxels = 0;  ///< Most core voxels, likewise; 0: no such limit.
+  std::int32_t halo_voxels = 0;       ///< >= 0.
+};
+
+/// As plan_tiles(), with boxes and counts in voxels. One tile without cuts if all voxels fit.
+TilePlan plan_voxel_tiles(const VoxelIndex& index, const VoxelPlanRequest& request);
+
+/// The voxels of a tile's covered box with their neighbours inside it. @param colours  keep colours.
+/// Runs in parallel. Peak memory per voxel: 36 bytes for reading, 48 plus 4 per neighbour for what is returned. Throws
+/// IoError.
+VoxelTile load_voxel_tile(const VoxelStore& store, const PlannedTile& tile, bool colours);
+
+}  // namespace arris::tiling
