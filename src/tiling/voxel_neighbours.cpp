@@ -67,8 +67,10 @@ class Cube {
   static constexpr std::array<int, kNeighbours> kOffsets = neighbour_offsets();
 
   std::uint32_t cell_of(const LatticePoint& key) const {
-    return static_cast<std::uint32_t>(((key.x - corner_.x + 1) * kCube + key.y - corner_.y + 1) * kCube + key.z -
-                                      corner_.z + 1);
+    const std::int32_t x = key.x - corner_.x + 1;  // Differences first: they fit, sums with keys need not.
+    const std::int32_t y = key.y - corner_.y + 1;
+    const std::int32_t z = key.z - corner_.z + 1;
+    return static_cast<std::uint32_t>((x * kCube + y) * kCube + z);
   }
 
   void add(const VoxelIndex::Block& block) {

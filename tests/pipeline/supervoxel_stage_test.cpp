@@ -39,13 +39,14 @@ class SupervoxelStage : public ::testing::Test {
     const tiling::Survey survey = tiling::survey_inputs(inputs, {}, sink_, cancel_);
     scale_ = resolve_scale(parameters_, survey.spacing, survey.lattice);
     voxels_.reset();
-    voxels_.emplace(run_voxel_stage(inputs, survey, scale_, colour, folder_.path(), VoxelMemory(std::uint64_t{1} << 30), 2, sink_, cancel_));
+    voxels_.emplace(run_voxel_stage(inputs, survey, scale_, colour, folder_.path(), VoxelMemory(std::uint64_t{1} << 30),
+                                    2, sink_, cancel_));
   }
 
   SupervoxelStageResult cluster(Features features, std::uint64_t cap = 0, std::uint64_t memory = kMuch) {
     parameters_.features = features;
-    return run_supervoxel_stage(voxels_->store, {parameters_, scale_, voxels_->colours, memory, cap, true, true}, sink_,
-                                cancel_);
+    return run_supervoxel_stage(
+        voxels_->store, {{parameters_, scale_, voxels_->colours, memory, cap}, true, folder_.path()}, sink_, cancel_);
   }
 
   std::vector<LatticePoint> positions() const {
@@ -164,7 +165,8 @@ TEST_F(SupervoxelStage, TilesOfAnySize_GiveTheSameSupervoxels) {
       EXPECT_EQ(cut.ids, whole.ids);
       EXPECT_EQ(cut.adjacency, whole.adjacency);
       EXPECT_EQ(cut.shared, whole.shared);
-      EXPECT_EQ(cut.orphans, whole.orphans);
+      EXPECT_EQ(cut.groups, whole.groups);
+      EXPECT_EQ(cut.coarse, whole.coarse);
     }
   }
 }
@@ -190,7 +192,7 @@ TEST_F(SupervoxelStage, Cancelled_StopsBetweenTiles) {
   EXPECT_THROW(cluster(Features::kNormal), Cancelled);
 }
 
-TEST_F(SupervoxelStage, SpecksFarApart_AreSupervoxelsWithoutASeed) {
+TEST_F(SupervoxelStage, SpecksFarApart_AreSupervoxelsOnCoarserVoxels) {
   std::vector<std::array<std::int32_t, 3>> specks;
   for (std::int32_t i = 0; i < 9; ++i) specks.push_back({1000 * i, 0, 0});
   specks.push_back({20, 0, 0});  // In the next voxel of the first.
@@ -198,7 +200,8 @@ TEST_F(SupervoxelStage, SpecksFarApart_AreSupervoxelsWithoutASeed) {
   voxelise(folder_ / "specks.las", Colour::kAuto);
   const SupervoxelStageResult result = cluster(Features::kNormal);
   EXPECT_EQ(result.count, 9U);
-  EXPECT_EQ(result.orphans, 9U);
+  EXPECT_EQ(result.coarse, 9U);
+  EXPECT_EQ(result.groups, 0U);
   EXPECT_TRUE(result.adjacency.empty());
 }
 
