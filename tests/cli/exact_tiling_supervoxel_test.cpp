@@ -5,12 +5,14 @@
 
 #include "supervoxel_tiling.h"
 #include "support/coloured_scan.h"
+#include "support/sanitizers.h"
 #include "support/temp_folder.h"
 
 namespace arris::test {
 namespace {
 
 TEST(ExactTilingSupervoxel, ColouredRoom_SameBytes) {
+  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
   const TempFolder folder;
   write_coloured_las(folder / "room.las", coloured_room(60, 65535));
   for (const char* features : {"normal", "fpfh"}) {
@@ -24,6 +26,7 @@ TEST(ExactTilingSupervoxel, ColouredRoom_SameBytes) {
 
 // The halves that a split makes look like other ranges of colours.
 TEST(ExactTilingSupervoxel, ColouredPly_SameBytes) {
+  ARRIS_SKIP_UNDER_SANITIZERS;
   const TempFolder folder;
   auto points = coloured_room(50, 255);
   for (std::size_t i = 0; i < points.size() / 5; ++i) points[i].colour = {1, 0, 1};
@@ -39,6 +42,7 @@ TEST(ExactTilingSupervoxel, ColouredPly_SameBytes) {
 }
 
 TEST(ExactTilingSupervoxel, PointsOnTileFaces_SameBytes) {
+  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
   const TempFolder folder;
   write_points_on_tile_faces(folder / "faces.las");
   expect_same_bytes(folder / "faces.las", small_matrix(), supervoxel_run({"--voxel", "0.032", "--seed", "0.128"}, 40));
@@ -59,6 +63,7 @@ TEST(ExactTilingSupervoxel, SprayWithoutSeeds_SameBytes) {
 }
 
 TEST(ExactTilingZheng, SyntheticBlock_SameBytes) {
+  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
   const TempFolder folder;
   synth_scan(folder / "scan.las", {"block", "--spacing", "0.3", "--noise", "0.05", "--seed", "3"});
   expect_same_bytes(folder / "scan.las", least_matrix(), zheng_run({}, 10));
@@ -66,12 +71,14 @@ TEST(ExactTilingZheng, SyntheticBlock_SameBytes) {
 }
 
 TEST(ExactTilingZheng, ColouredRoom_SameBytes) {
+  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
   const TempFolder folder;
   write_coloured_las(folder / "room.las", coloured_room(60, 65535));
   expect_same_bytes(folder / "room.las", least_matrix(), zheng_run({"--features", "fpfh", "--colour", "on"}, 40));
 }
 
 TEST(ExactTilingZheng, Duplicates_SameBytes) {
+  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
   const TempFolder folder;
   write_duplicates(folder / "twice.las");
   expect_same_bytes(folder / "twice.las", least_matrix(), zheng_run({"--improved"}, 20));

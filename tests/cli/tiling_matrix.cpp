@@ -18,8 +18,8 @@
 namespace arris::test {
 namespace {
 
-// AddressSanitizer's own memory counts as resident.
-const std::string kSmallBudget = kAddressSanitizer ? "1GiB" : "256MiB";
+// The sanitizers' own memory counts as resident.
+const std::string kSmallBudget = kAddressSanitizer || kThreadSanitizer ? "1GiB" : "256MiB";
 
 std::string cap_of(const TilingCase& c, const TilingRun& run) {
   return c.tile_points == "none" ? c.tile_points : std::to_string(std::stoi(c.tile_points) / run.caps_divisor);
