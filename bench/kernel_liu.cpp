@@ -14,7 +14,7 @@
 #include <string>
 
 #include "core/parallel.h"
-#include "features/liu_method.h"
+#include "features/liu/liu_method.h"
 
 namespace {
 

@@ -14,7 +14,8 @@ void add_supervoxel_options(CLI::App& verb, SupervoxelOptions& o, const std::str
   verb.add_option("--voxel", o.voxel, "Side of a voxel (length; default 1.5 spacings)")->group(group);
   verb.add_option("--seed", o.seed, "Side of a seed cell: the size of supervoxels (length; default 8 voxels)")
       ->group(group);
-  verb.add_option("--features", o.features, "normal: normals, space and colour; fpfh: point feature histograms, eq. (2) as published")
+  verb.add_option("--features", o.features,
+                  "normal: normals, space and colour; fpfh: point feature histograms, eq. (2) as published")
       ->check(CLI::IsMember({"fpfh", "normal"}))
       ->group(group)
       ->capture_default_str();

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "features/supervoxel_parameters.h"
+#include "features/supervoxel/supervoxel_parameters.h"
 
 namespace CLI {
 class App;

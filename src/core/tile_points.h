@@ -10,8 +10,8 @@
 
 namespace arris {
 
-/// Unique positions of a tile's core and halo. Exact duplicates (same lattice position) are one entry whose id is the smallest
-/// of theirs; the others are in `duplicates`. The order of entries has no meaning and no influence on results.
+/// Unique positions of a tile's core and halo. Exact duplicates (same lattice position) are one entry whose id is the
+/// smallest of theirs; the others are in `duplicates`. The order of entries has no meaning and no influence on results.
 struct TilePoints {
   std::vector<LatticePoint> positions;
   std::vector<std::uint64_t> ids;  ///< Same length and order as positions.

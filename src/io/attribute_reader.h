@@ -10,8 +10,9 @@
 
 namespace arris::io {
 
-/// Reads scalar attributes as double: LAS fields by the names of las_fields.h ("intensity", "red", ...) and extra bytes of scalar type, PLY scalar properties (also under
-/// the name "scalar_<name>" that CloudCompare gives them). Not thread-safe.
+/// Reads scalar attributes as double: LAS fields by the names of las_fields.h ("intensity", "red", ...) and extra bytes
+/// of scalar type, PLY scalar properties (also under the name "scalar_<name>" that CloudCompare gives them). Not
+/// thread-safe.
 class AttributeReader {
  public:
   /// Opens `path` for its header only. Throws InputError / IoError.

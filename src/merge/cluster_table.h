@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "features/clusters.h"
-#include "features/point_refinement.h"
-#include "features/seed_cells.h"
-#include "features/supervoxel_parameters.h"
-#include "features/voxel_features.h"
+#include "features/supervoxel/clusters.h"
+#include "features/supervoxel/point_refinement.h"
+#include "features/supervoxel/seed_cells.h"
+#include "features/supervoxel/supervoxel_parameters.h"
+#include "features/supervoxel/voxel_features.h"
 
 namespace arris::merge {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "features/contour_record.h"
+#include "features/contour/contour_record.h"
 
 namespace arris::merge {
 

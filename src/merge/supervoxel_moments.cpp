@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "features/symmetric_eigen3.h"
+#include "features/numerics/symmetric_eigen3.h"
 
 namespace arris::merge {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/lattice.h"
-#include "features/supervoxel_table.h"
+#include "features/supervoxel/supervoxel_table.h"
 
 namespace arris::merge {
 

@@ -4,9 +4,9 @@
 #include <numeric>
 #include <utility>
 
-#include "features/cluster_growth.h"
-#include "features/leftover_voxels.h"
-#include "features/seed_cells.h"
+#include "features/supervoxel/cluster_growth.h"
+#include "features/supervoxel/leftover_voxels.h"
+#include "features/supervoxel/seed_cells.h"
 #include "merge/cluster_table.h"
 
 namespace arris::pipeline {

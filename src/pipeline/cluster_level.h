@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "features/point_refinement.h"
+#include "features/supervoxel/point_refinement.h"
 #include "pipeline/voxel_tile_walk.h"
 
 namespace arris::pipeline {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "features/clusters.h"
+#include "features/supervoxel/clusters.h"
 #include "tiling/voxel_accumulator.h"
 
 namespace arris::pipeline {

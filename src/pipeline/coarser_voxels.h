@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/cancel.h"
-#include "features/supervoxel_parameters.h"
+#include "features/supervoxel/supervoxel_parameters.h"
 #include "tiling/tile_plan.h"
 #include "tiling/voxel_store.h"
 

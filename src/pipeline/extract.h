@@ -3,7 +3,7 @@
 
 #include "core/cancel.h"
 #include "core/progress.h"
-#include "features/contour_method.h"
+#include "features/contour/contour_method.h"
 #include "pipeline/extract_report.h"
 #include "pipeline/run_request.h"
 

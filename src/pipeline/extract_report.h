@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 
-#include "features/contour_method.h"
+#include "features/contour/contour_method.h"
 #include "pipeline/run_report.h"
 
 namespace arris::pipeline {

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "features/contour_method.h"
+#include "features/contour/contour_method.h"
 
 namespace arris::pipeline {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "features/contour_method.h"
+#include "features/contour/contour_method.h"
 #include "pipeline/run_support.h"
 #include "pipeline/voxel_memory.h"
 

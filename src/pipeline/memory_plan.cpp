@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/process_memory.h"
 #include "core/text.h"
-#include "features/contour_method.h"
+#include "features/contour/contour_method.h"
 #include "tiling/tile_store.h"
 
 namespace arris::pipeline {

@@ -7,7 +7,7 @@
 
 #include "core/cancel.h"
 #include "core/progress.h"
-#include "features/supervoxel_parameters.h"
+#include "features/supervoxel/supervoxel_parameters.h"
 #include "pipeline/run_report.h"
 #include "pipeline/run_request.h"
 

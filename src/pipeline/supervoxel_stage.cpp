@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "core/parallel.h"
-#include "features/clusters.h"
+#include "features/supervoxel/clusters.h"
 #include "pipeline/cluster_level.h"
 #include "pipeline/coarser_voxels.h"
 

@@ -8,8 +8,8 @@
 
 #include "core/cancel.h"
 #include "core/progress.h"
-#include "features/point_refinement.h"
-#include "features/supervoxel_parameters.h"
+#include "features/supervoxel/point_refinement.h"
+#include "features/supervoxel/supervoxel_parameters.h"
 #include "pipeline/voxel_tile_walk.h"
 #include "tiling/voxel_store.h"
 

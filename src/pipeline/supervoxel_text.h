@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/lattice.h"
-#include "features/supervoxel_table.h"
+#include "features/supervoxel/supervoxel_table.h"
 #include "merge/supervoxel_moments.h"
 
 namespace arris::pipeline {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/memory_budget.h"
-#include "features/contour_method.h"
+#include "features/contour/contour_method.h"
 #include "merge/result_spool.h"
 #include "pipeline/job_plan.h"
 #include "tiling/tile_store.h"

@@ -11,8 +11,8 @@
 namespace arris::pipeline {
 
 /// Points have the supervoxel of their voxel, or, where their voxel touches another surface, the one of the two whose
-/// plane fits them (features/point_refinement.h). Refers to what it is made from. Not thread-safe; one per thread. Fast
-/// for points that come in voxels or near each other.
+/// plane fits them (features/supervoxel/point_refinement.h). Refers to what it is made from. Not thread-safe; one per
+/// thread. Fast for points that come in voxels or near each other.
 class VoxelLabels {
  public:
   VoxelLabels(const tiling::VoxelStore& store, const SupervoxelStageResult& clusters)

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "features/supervoxel_parameters.h"
+#include "features/supervoxel/supervoxel_parameters.h"
 #include "tiling/survey.h"
 
 namespace arris::pipeline {

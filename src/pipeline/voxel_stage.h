@@ -5,7 +5,7 @@
 
 #include "core/cancel.h"
 #include "core/progress.h"
-#include "features/supervoxel_parameters.h"
+#include "features/supervoxel/supervoxel_parameters.h"
 #include "io/point_source.h"
 #include "pipeline/voxel_memory.h"
 #include "tiling/survey.h"

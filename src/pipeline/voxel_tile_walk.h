@@ -7,8 +7,8 @@
 
 #include "core/cancel.h"
 #include "core/progress.h"
-#include "features/supervoxel_parameters.h"
-#include "features/voxel_features.h"
+#include "features/supervoxel/supervoxel_parameters.h"
+#include "features/supervoxel/voxel_features.h"
 #include "tiling/tile_plan.h"
 #include "tiling/voxel_store.h"
 

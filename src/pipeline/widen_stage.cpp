@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "core/process_memory.h"
 #include "core/text.h"
-#include "features/contour_method.h"
+#include "features/contour/contour_method.h"
 #include "pipeline/tile_stage.h"
 #include "tiling/query_regions.h"
 

@@ -71,8 +71,8 @@ class ScenePointStream {
 
 /// Immutable; safe to use from several threads. FreshPoint::point_source_id is the number of the face from 1 (0:
 /// outlier), or of the station in scanned scenes. FreshPoint::label is the number of the surface from 1, in all scenes:
-/// touching faces in one plane, on one cylinder or on one sphere are one surface. It is 0 for outliers, mixed pixels and
-/// points of volumes.
+/// touching faces in one plane, on one cylinder or on one sphere are one surface. It is 0 for outliers, mixed pixels
+/// and points of volumes.
 class Scene {
  public:
   /// Throws ConfigError for anything in the request that is unknown or out of range.

@@ -15,7 +15,8 @@ namespace {
 
 /// A core of less than 1/4 of the points that fit, in a tile that does not fit.
 constexpr std::uint64_t kHaloDominates = 4;
-/// A tile whose halo must stay whole and whose core is less than 1/64 of what fits is not cut further: it would not help.
+/// A tile whose halo must stay whole and whose core is less than 1/64 of what fits is not cut further: it would not
+/// help.
 constexpr std::uint64_t kHaloIsTooLarge = 64;
 
 std::vector<PlanCell> list_cells(const Survey& survey) {

@@ -24,8 +24,8 @@ namespace arris::tiling {
 class VoxelAccumulator {
  public:
   struct Options {
-    std::filesystem::path folder;                   ///< Existing; runs and the store go here.
-    std::size_t table_bytes = 32U * 1024U * 1024U;  ///< >= 1 MiB; less works, but takes more than was said.
+    std::filesystem::path folder;                        ///< Existing; runs and the store go here.
+    std::size_t table_bytes = 32U * 1024U * 1024U;       ///< >= 1 MiB; less works, but takes more than was said.
     std::uint64_t most_index_bytes = ~std::uint64_t{0};  ///< finish() throws BudgetError rather than exceed it.
   };
   VoxelAccumulator(const VoxelGrid& grid, Options options);

@@ -10,8 +10,8 @@
 namespace arris::tiling {
 
 struct VoxelPlanRequest {
-  /// Most covered voxels of a tile, >= 1; exceeded only by a tile of one 8^3 block, and where the halo alone is so large
-  /// that the core is less than 1/64 of this.
+  /// Most covered voxels of a tile, >= 1; exceeded only by a tile of one 8^3 block, and where the halo alone is so
+  /// large that the core is less than 1/64 of this.
   std::uint64_t max_voxels = 0;
   std::uint64_t max_core_voxels = 0;  ///< Most core voxels, likewise; 0: no such limit.
   std::int32_t halo_voxels = 0;       ///< >= 0.

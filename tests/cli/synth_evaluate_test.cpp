@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "support/arris_process.h"
-#include "support/temp_folder.h"
 #include "support/sanitizers.h"
+#include "support/temp_folder.h"
 
 namespace arris::test {
 namespace {

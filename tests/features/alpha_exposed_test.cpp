@@ -1,6 +1,6 @@
 // Exposure against discs tried one by one and against a Delaunay triangulation made of all triples.
 
-#include "features/alpha_exposed.h"
+#include "features/zheng/alpha_exposed.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "ball_testing.h"
-#include "features/exact_math.h"
+#include "features/numerics/exact_math.h"
 
 namespace arris {
 namespace {

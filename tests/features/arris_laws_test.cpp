@@ -11,7 +11,7 @@
 #include "core/columns.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "features/arris_method.h"
+#include "features/arris/arris_method.h"
 #include "random_clouds.h"
 #include "tile_laws.h"
 

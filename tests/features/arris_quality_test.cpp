@@ -7,8 +7,8 @@
 #include "ball_testing.h"
 #include "contour_scenes.h"
 #include "core/columns.h"
-#include "features/arris_method.h"
-#include "features/exact_math.h"
+#include "features/arris/arris_method.h"
+#include "features/numerics/exact_math.h"
 
 namespace arris {
 namespace {

@@ -1,4 +1,4 @@
-#include "features/ball_points.h"
+#include "features/neighbourhood/ball_points.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "features/exact_math.h"
+#include "features/numerics/exact_math.h"
 
 namespace arris::test {
 namespace {

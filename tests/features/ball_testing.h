@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "features/ball_points.h"
-#include "features/symmetric_eigen3.h"
+#include "features/neighbourhood/ball_points.h"
+#include "features/numerics/symmetric_eigen3.h"
 
 namespace arris::test {
 

@@ -1,4 +1,4 @@
-#include "features/cie_lab.h"
+#include "features/supervoxel/cie_lab.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "features/cluster_growth.h"
+#include "features/supervoxel/cluster_growth.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/parallel.h"
-#include "features/cluster_distance.h"
+#include "features/supervoxel/cluster_distance.h"
 #include "growth_testing.h"
 
 namespace arris {

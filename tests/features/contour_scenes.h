@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/tile_points.h"
-#include "features/contour_record.h"
+#include "features/contour/contour_record.h"
 
 namespace arris::test {
 

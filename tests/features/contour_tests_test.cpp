@@ -9,10 +9,10 @@
 
 #include "core/columns.h"
 #include "core/error.h"
-#include "features/azimuth_gap.h"
-#include "features/exact_math.h"
-#include "features/fold_test.h"
-#include "features/liu_method.h"
+#include "features/liu/fold_test.h"
+#include "features/liu/liu_method.h"
+#include "features/neighbourhood/azimuth_gap.h"
+#include "features/numerics/exact_math.h"
 
 namespace arris {
 namespace {

@@ -1,4 +1,4 @@
-#include "features/curved_surface.h"
+#include "features/arris/curved_surface.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

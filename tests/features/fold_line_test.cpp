@@ -1,4 +1,4 @@
-#include "features/fold_line.h"
+#include "features/arris/fold_line.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "ball_testing.h"
-#include "features/exact_math.h"
+#include "features/numerics/exact_math.h"
 
 namespace arris {
 namespace {

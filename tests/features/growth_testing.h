@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "features/cluster_growth.h"
+#include "features/supervoxel/cluster_growth.h"
 #include "voxel_tile_testing.h"
 
 namespace arris::test {

@@ -1,4 +1,4 @@
-#include "features/least_squares.h"
+#include "features/numerics/least_squares.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

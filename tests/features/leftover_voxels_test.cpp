@@ -1,4 +1,4 @@
-#include "features/leftover_voxels.h"
+#include "features/supervoxel/leftover_voxels.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "features/cluster_distance.h"
-#include "features/seed_cells.h"
+#include "features/supervoxel/cluster_distance.h"
+#include "features/supervoxel/seed_cells.h"
 #include "growth_testing.h"
 
 namespace arris {

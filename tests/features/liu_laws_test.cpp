@@ -11,7 +11,7 @@
 #include "core/columns.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "features/liu_engine.h"
+#include "features/liu/liu_engine.h"
 #include "liu_reference.h"
 #include "random_clouds.h"
 #include "tile_laws.h"

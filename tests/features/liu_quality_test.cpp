@@ -4,7 +4,7 @@
 
 #include "contour_scenes.h"
 #include "core/columns.h"
-#include "features/liu_method.h"
+#include "features/liu/liu_method.h"
 
 namespace arris {
 namespace {

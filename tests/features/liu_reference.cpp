@@ -6,13 +6,13 @@
 #include <map>
 
 #include "core/columns.h"
-#include "features/azimuth_gap.h"
-#include "features/ball_moments.h"
-#include "features/entropy_scale.h"
-#include "features/exact_math.h"
-#include "features/fixed_point.h"
-#include "features/fold_test.h"
-#include "features/local_spacing.h"
+#include "features/liu/entropy_scale.h"
+#include "features/liu/fold_test.h"
+#include "features/neighbourhood/azimuth_gap.h"
+#include "features/neighbourhood/ball_moments.h"
+#include "features/neighbourhood/local_spacing.h"
+#include "features/numerics/exact_math.h"
+#include "features/numerics/fixed_point.h"
 
 namespace arris::test {
 namespace {

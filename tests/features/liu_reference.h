@@ -2,7 +2,7 @@
 /// @file A readable, serial, quadratic form of the method to compare against: no tree, no batches, no rejection, no
 /// tiles.
 
-#include "features/liu_method.h"
+#include "features/liu/liu_method.h"
 
 namespace arris::test {
 

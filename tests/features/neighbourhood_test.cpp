@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "features/ball_moments.h"
-#include "features/candidate_set.h"
-#include "features/local_spacing.h"
-#include "features/nearest_select.h"
+#include "features/neighbourhood/ball_moments.h"
+#include "features/neighbourhood/candidate_set.h"
+#include "features/neighbourhood/local_spacing.h"
+#include "features/neighbourhood/nearest_select.h"
 #include "random_clouds.h"
 
 namespace arris {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <random>
 
-#include "features/entropy_scale.h"
-#include "features/exact_math.h"
-#include "features/fixed_point.h"
-#include "features/planar_diameter.h"
-#include "features/symmetric_eigen3.h"
+#include "features/liu/entropy_scale.h"
+#include "features/neighbourhood/planar_diameter.h"
+#include "features/numerics/exact_math.h"
+#include "features/numerics/fixed_point.h"
+#include "features/numerics/symmetric_eigen3.h"
 
 namespace arris {
 namespace {

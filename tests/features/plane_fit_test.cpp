@@ -1,4 +1,4 @@
-#include "features/plane_fit.h"
+#include "features/neighbourhood/plane_fit.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

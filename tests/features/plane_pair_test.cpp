@@ -1,4 +1,4 @@
-#include "features/plane_pair.h"
+#include "features/arris/plane_pair.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "ball_testing.h"
-#include "features/exact_math.h"
+#include "features/numerics/exact_math.h"
 
 namespace arris {
 namespace {

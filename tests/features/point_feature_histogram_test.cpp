@@ -1,4 +1,4 @@
-#include "features/point_feature_histogram.h"
+#include "features/supervoxel/point_feature_histogram.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -9,7 +9,7 @@
 #include <optional>
 #include <random>
 
-#include "features/voxel_normals.h"
+#include "features/supervoxel/voxel_normals.h"
 #include "voxel_tile_testing.h"
 
 namespace arris {

@@ -1,4 +1,4 @@
-#include "features/point_refinement.h"
+#include "features/supervoxel/point_refinement.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,4 +1,4 @@
-#include "features/rim_shape.h"
+#include "features/arris/rim_shape.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "ball_testing.h"
-#include "features/exact_math.h"
+#include "features/numerics/exact_math.h"
 
 namespace arris {
 namespace {

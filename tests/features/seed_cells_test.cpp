@@ -1,4 +1,4 @@
-#include "features/seed_cells.h"
+#include "features/supervoxel/seed_cells.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

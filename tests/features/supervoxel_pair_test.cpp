@@ -1,15 +1,15 @@
 // How supervoxels lie to each other, on planes and cylinders; frames and mutual nearest neighbours.
 
-#include "features/supervoxel_pair.h"
+#include "features/zheng/supervoxel_pair.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "ball_testing.h"
-#include "features/exact_math.h"
-#include "features/mutual_nearest.h"
-#include "features/supervoxel_frame.h"
+#include "features/numerics/exact_math.h"
+#include "features/zheng/mutual_nearest.h"
+#include "features/zheng/supervoxel_frame.h"
 #include "random_clouds.h"
 
 namespace arris {

@@ -1,4 +1,4 @@
-#include "features/supervoxel_parameters.h"
+#include "features/supervoxel/supervoxel_parameters.h"
 
 #include <gtest/gtest.h>
 

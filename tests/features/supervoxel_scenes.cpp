@@ -6,7 +6,7 @@
 #include <set>
 #include <tuple>
 
-#include "features/symmetric_eigen3.h"
+#include "features/numerics/symmetric_eigen3.h"
 
 namespace arris::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "contour_scenes.h"
 #include "core/tile_points.h"
-#include "features/supervoxel_table.h"
+#include "features/supervoxel/supervoxel_table.h"
 
 namespace arris::test {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/tile_points.h"
-#include "features/tile_contours.h"
+#include "features/contour/tile_contours.h"
 
 namespace arris {
 

@@ -1,4 +1,4 @@
-#include "features/voxel_normals.h"
+#include "features/supervoxel/voxel_normals.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/voxel_tile.h"
-#include "features/voxel_features.h"
+#include "features/supervoxel/voxel_features.h"
 
 namespace arris::test {
 

@@ -10,7 +10,7 @@
 #include "core/columns.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "features/zheng_method.h"
+#include "features/zheng/zheng_method.h"
 #include "random_clouds.h"
 #include "supervoxel_scenes.h"
 #include "tile_laws.h"

@@ -4,7 +4,7 @@
 
 #include "contour_scenes.h"
 #include "core/columns.h"
-#include "features/zheng_method.h"
+#include "features/zheng/zheng_method.h"
 #include "supervoxel_scenes.h"
 
 namespace arris {

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "core/columns.h"
-#include "features/alpha_exposed.h"
-#include "features/supervoxel_frame.h"
-#include "features/supervoxel_pair.h"
-#include "features/zheng_score.h"
+#include "features/zheng/alpha_exposed.h"
+#include "features/zheng/supervoxel_frame.h"
+#include "features/zheng/supervoxel_pair.h"
+#include "features/zheng/zheng_score.h"
 
 namespace arris::test {
 namespace {

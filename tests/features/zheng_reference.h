@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "features/zheng_method.h"
+#include "features/zheng/zheng_method.h"
 
 namespace arris::test {
 

@@ -46,7 +46,8 @@ RC_GTEST_PROP(QueryRegions, EveryPointOfAQuerysBox_IsContainedAndItsTilesAreTouc
   // And what lies farther than two reaches from every query is left out.
   const LatticePoint p{*rc::gen::inRange<std::int32_t>(-9000, 9000), 0, 0};
   bool near = false;
-  for (const Query& query : queries) near = near || box_of(query).expanded(std::max<std::int64_t>(query.reach, 1)).contains(p);
+  for (const Query& query : queries)
+    near = near || box_of(query).expanded(std::max<std::int64_t>(query.reach, 1)).contains(p);
   if (!near) RC_ASSERT(!regions.contains(p));
 }
 

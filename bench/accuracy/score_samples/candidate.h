@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "features/edge_score.h"
+#include "features/arris/edge_score.h"
 
 namespace arris::bench {
 

@@ -1,13 +1,13 @@
-/// @file Takes the place of features/point_analysis.cpp in bench_score_samples: the same analysis, but every fold and
-/// every rim that the loose limits let pass is kept as a sample, whatever its score. Change both together.
+/// @file Takes the place of features/arris/point_analysis.cpp in bench_score_samples: the same analysis, but every fold
+/// and every rim that the loose limits let pass is kept as a sample, whatever its score. Change both together.
 
 #include <algorithm>
 #include <cmath>
 
 #include "candidate.h"
-#include "features/curved_surface.h"
-#include "features/exact_math.h"
-#include "features/point_analysis.h"
+#include "features/arris/curved_surface.h"
+#include "features/arris/point_analysis.h"
+#include "features/numerics/exact_math.h"
 
 namespace arris::bench {
 
@@ -61,7 +61,7 @@ bool believable(const LevelFit& larger, const LevelFit& smaller) {
          (larger.arms && (!smaller.arms || larger.line.rms < kRmsGrowth * smaller.line.rms + kRmsAllowance));
 }
 
-/// The fold of the ball that decides, as in features/point_analysis.cpp.
+/// The fold of the ball that decides, as in features/arris/point_analysis.cpp.
 struct FoldSearch {
   LevelFit best;
   double noise = 0.0;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fits EdgeScore of arris's own method to samples (make_samples.py) and says how well it holds.
 
-fit_score.py --work DIR            fit; prints the tables of src/features/edge_score.cpp and the reliability
+fit_score.py --work DIR            fit; prints the tables of src/features/arris/edge_score.cpp and the reliability
 fit_score.py --work DIR --check    no fit: judges the scores in the samples, which the program computed
 
 Logistic regression by Newton's method, one for folds and one for rims; needs numpy. A sample is right if its point is
@@ -28,7 +28,7 @@ def above(x, start):
 
 
 def fold_features(d):
-    """As fold_features() of src/features/edge_score.cpp."""
+    """As fold_features() of src/features/arris/edge_score.cpp."""
     distance = np.minimum(d["f_distance"] / d["f_line_spacing"], 2.0)
     error = d["f_position_error"]
     curved = np.minimum(d["f_rms"] / d["f_curved_rms"], 1.0)
@@ -50,7 +50,7 @@ def fold_features(d):
 
 
 def rim_features(d):
-    """As rim_features() of src/features/edge_score.cpp."""
+    """As rim_features() of src/features/arris/edge_score.cpp."""
     gap = np.minimum(d["r_gap_deg"], 220.0) / 180.0
     depth = np.minimum(d["r_depth"], 1.5)
     noise = np.minimum(d["r_noise"], 1.0)

@@ -14,7 +14,7 @@
 #include "core/parallel.h"
 #include "evaluate/edge_index.h"
 #include "evaluate/truth.h"
-#include "features/arris_method.h"
+#include "features/arris/arris_method.h"
 #include "io/point_source.h"
 #include "tiling/tile_store.h"
 

@@ -1,0 +1,15 @@
+#pragma once
+/// @file Whether points scatter about a plane or bend away from it.
+
+#include "features/neighbourhood/plane_fit.h"
+
+namespace arris {
+
+/// Rms of the points within `radius` about the quadric over their plane (1, u, v, u², uv, v²), divided by their rms
+/// about the plane itself; degrees of freedom are counted, so that it is about 1 for noise. A fold bends: what it
+/// leaves is the noise. 1 where the points do not determine a quadric. Law: bits depend on the set of points only
+/// (coordinates are rounded to 1/32 spacing, heights to 1/1024). O(points).
+/// @param plane  fitted to the same points.
+double quadric_share(const BallPoints& points, double radius, const FittedPlane& plane);
+
+}  // namespace arris

@@ -1,0 +1,172 @@
+#include "features/liu/fold_test.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "features/numerics/exact_math.h"
+#include "features/numerics/fixed_point.h"
+
+namespace arris {
+namespace {
+
+struct Chord {
+  double x, y;    ///< One end.
+  double sx, sy;  ///< Unit direction.
+};
+
+/// Unsigned, rounded distances of all members; returns their exact sum, and counts the members strictly on either side.
+struct Sides {
+  double sum = 0;
+  std::size_t left = 0;
+  std::size_t right = 0;
+};
+
+/// Arrays are padded to full vectors with points on the chord, which add nothing.
+struct Measure {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(FoldScratch& s, std::size_t n, const Chord& chord, double magic, double on_line,
+                                      Sides& sides) {
+    using V = typename simd::Wide<Bytes>::Double;
+    using Mask = typename simd::Wide<Bytes>::Long;
+    constexpr std::size_t kLanes = Bytes / sizeof(double);
+    V sum{};
+    Mask left{};
+    Mask right{};
+    for (std::size_t i = 0; i < n; i += kLanes) {
+      const V du = simd::load<V>(s.u.data() + i) - chord.x;
+      const V dv = simd::load<V>(s.v.data() + i) - chord.y;
+      const V signed_distance = chord.sx * dv - chord.sy * du;
+      left -= signed_distance > on_line;
+      right -= signed_distance < -on_line;
+      const V size = signed_distance < 0.0 ? -signed_distance : signed_distance;
+      const V rounded = (size + magic) - magic;
+      simd::store(s.distance.data() + i, rounded);
+      sum += rounded;  // Exact, so any grouping gives the same.
+    }
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      sides.sum += sum[lane];
+      sides.left += static_cast<std::size_t>(left[lane]);
+      sides.right += static_cast<std::size_t>(right[lane]);
+    }
+  }
+};
+
+struct SumOfSquares {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(const double* distance, std::size_t n, double mean, double magic, double& total) {
+    using V = typename simd::Wide<Bytes>::Double;
+    constexpr std::size_t kLanes = Bytes / sizeof(double);
+    V sum{};  // Exact, as above.
+    std::size_t i = 0;
+    for (; i + kLanes <= n; i += kLanes) {
+      const V off = simd::load<V>(distance + i) - mean;
+      sum += (off * off + magic) - magic;
+    }
+    for (std::size_t lane = 0; lane < kLanes; ++lane) total += sum[lane];
+    for (; i < n; ++i) {
+      const double off = distance[i] - mean;
+      total += (off * off + magic) - magic;
+    }
+  }
+};
+
+void project(const PrincipalFrame& frame, FoldScratch& s) {
+  const std::size_t n = s.members.size();
+  if (s.u.size() < simd::padded(n)) {
+    for (auto* column : {&s.u, &s.v, &s.distance}) column->resize(simd::padded(n));
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const BallMember& m = s.members[i];
+    s.u[i] = m.dx * frame.e2[0] + m.dy * frame.e2[1] + m.dz * frame.e2[2];
+    s.v[i] = m.dx * frame.e3[0] + m.dy * frame.e3[1] + m.dz * frame.e3[2];
+  }
+}
+
+/// Members that can be an end of the diameter: it is at least as long as the span along u, and no member is farther out
+/// than `reach`, so an end lies at least the difference from the centre. The margin covers rounding.
+void gather_ends(FoldScratch& s, double radius) {
+  const std::size_t n = s.members.size();
+  std::size_t left = 0;
+  std::size_t right = 0;
+  double reach2 = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (s.u[i] < s.u[left]) left = i;
+    if (s.u[i] > s.u[right]) right = i;
+    reach2 = std::max(reach2, s.u[i] * s.u[i] + s.v[i] * s.v[i]);
+  }
+  // Either extreme may be one of several: the span along u is the same for all of them.
+  const double inner = std::max(0.0, s.u[right] - s.u[left] - std::sqrt(reach2) - 1e-9 * radius);
+  s.ends.clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (s.u[i] * s.u[i] + s.v[i] * s.v[i] < inner * inner) continue;
+    s.ends.push_back({s.u[i], s.v[i], s.members[i].d2, s.members[i].id});
+  }
+}
+
+void pick_top(FoldScratch& s, std::size_t count, FoldEmission& emission) {
+  const auto stronger = [&s](std::uint32_t a, std::uint32_t b) {
+    if (s.distance[a] != s.distance[b]) return s.distance[a] > s.distance[b];
+    if (s.members[a].d2 != s.members[b].d2) return s.members[a].d2 < s.members[b].d2;
+    return s.members[a].id < s.members[b].id;
+  };
+  s.top.clear();
+  for (std::uint32_t i = 0; i < s.members.size(); ++i) {
+    if (s.top.size() == count && !stronger(i, s.top.back())) continue;
+    if (s.top.size() == count) s.top.pop_back();
+    s.top.insert(std::upper_bound(s.top.begin(), s.top.end(), i, stronger), i);
+  }
+  for (const std::uint32_t i : s.top) emission.slots.push_back(s.members[i].slot);
+}
+
+}  // namespace
+
+double chord_deviation_bound(const Eigenvalues<double>& values, double n, double radius, double extent3) {
+  // Nearly equal values may be off by 1e-8 of the largest, which is at most r².
+  const double slack = 1e-7 * radius * radius;
+  const double l2 = std::max(values.middle, 0.0) + slack;
+  const double l3 = std::max(values.smallest, 0.0) + slack;
+  const double rise2 = std::min(extent3 * extent3, 2.0 * n * l3);
+  const double run2 = 4.0 * std::max(values.middle - slack, 0.0);
+  const double sine2 = run2 > rise2 ? rise2 / run2 : 1.0;
+  const double variance = l3 + (l2 - l3) * sine2;
+  return std::sqrt(variance * n / (n - 1.0)) * (1.0 + 1e-6) + 1e-6 * radius;
+}
+
+void evaluate_fold(const PrincipalFrame& frame, const FoldThresholds& thresholds, FoldScratch& s,
+                   FoldEmission& emission) {
+  emission.slots.clear();
+  const std::size_t n = s.members.size();
+  if (n < kLeastBallPoints) return;
+  project(frame, s);
+  gather_ends(s, thresholds.radius);
+  const Diameter diameter = planar_diameter(s.ends, s.hull);
+  if (!(diameter.length2 > 0.0)) return;
+  const double length = std::sqrt(diameter.length2);
+  const Chord chord{diameter.a.x, diameter.a.y, (diameter.b.x - diameter.a.x) / length,
+                    (diameter.b.y - diameter.a.y) / length};
+  for (std::size_t i = n; i < simd::padded(n); ++i) {
+    s.u[i] = chord.x;
+    s.v[i] = chord.y;
+  }
+  const FixedPoint to_line(2.0 * thresholds.radius, n, kDistanceBits);
+  Sides sides;
+  simd::dispatch<Measure>(s, simd::padded(n), chord, to_line.magic(), kOnLine * thresholds.radius, sides);
+  const double mean = sides.sum / static_cast<double>(n);
+  const FixedPoint to_square(4.0 * thresholds.radius * thresholds.radius, n, kSquareBits);
+  double squares = 0.0;
+  simd::dispatch<SumOfSquares>(s.distance.data(), n, mean, to_square.magic(), squares);
+  const double cf1 = std::sqrt(squares / static_cast<double>(n - 1));
+  if (!(cf1 >= thresholds.cf1)) return;
+  const auto majority = static_cast<double>(std::max(sides.left, sides.right));
+  const auto minority = static_cast<double>(std::min(sides.left, sides.right));
+  // Nobody on one side: infinitely one-sided; nobody on either: 1.
+  const bool one_sided =
+      minority > 0.0 ? majority >= thresholds.cf2 * minority : majority > 0.0 || thresholds.cf2 <= 1.0;
+  if (!one_sided) return;
+  pick_top(s, static_cast<std::size_t>(thresholds.top_m), emission);
+  emission.strength = static_cast<float>(cf1 / thresholds.cf1);
+  emission.angle_deg =
+      static_cast<float>(2.0 * kDegreesPerRadian * arc_cosine(std::min(1.0, cf1 / (kFoldLaw * thresholds.radius))));
+}
+
+}  // namespace arris

@@ -1,0 +1,43 @@
+#pragma once
+/// @file Exact moments of the points within a ball, and how far they spread along a direction.
+
+#include <cstddef>
+
+#include "features/neighbourhood/candidate_set.h"
+#include "features/numerics/symmetric_eigen3.h"
+
+namespace arris {
+
+template <class T>
+struct BallQuery {
+  T x, y, z;  ///< Centre relative to the candidates' origin.
+  T radius2;  ///< floor(r²) in steps², exact in T: membership is d² <= radius2.
+};
+
+/// Sums over the members relative to the centre; the sums are exact integers (rounded once to double where above 2^53).
+struct BallMoments {
+  double n = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  /// Covariance with factor 1/n, steps².
+  SymmetricMatrix<double> covariance() const;
+};
+
+/// Largest sum that partial sums in T must stay below to be exact, for a ball of `radius` steps and `count` candidates.
+template <class T>
+bool ball_sums_are_exact(double radius, std::size_t count);
+
+/// Law: bits do not depend on the order of the candidates. Needs ball_sums_are_exact (always true for int64, the slow
+/// exact path).
+template <class T>
+BallMoments ball_moments(const CandidateSet<T>& candidates, const BallQuery<T>& ball);
+
+/// Upper bound of the members' extent along the unit vector e, steps: never below what any evaluation in double can
+/// give.
+template <class T>
+double extent_bound(const CandidateSet<T>& candidates, const BallQuery<T>& ball, const Vector3& e);
+
+/// Members (indices of candidates) in ascending order of candidates.
+template <class T>
+std::size_t ball_members(const CandidateSet<T>& candidates, const BallQuery<T>& ball,
+                         std::vector<std::uint32_t>& members);
+
+}  // namespace arris

@@ -1,0 +1,57 @@
+#pragma once
+/// @file The points around a few neighbouring queries, gathered once and kept contiguous for the kernels.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "features/neighbourhood/point_tree.h"
+#include "features/numerics/simd.h"
+
+namespace arris {
+
+/// Largest reach in steps that any query may have.
+constexpr double kMostReach = 1073741824.0;  // 2^30
+
+/// Squares of integers below this are exact in T.
+template <class T>
+constexpr double kExactSquares = 0.0;
+template <>
+inline constexpr double kExactSquares<float> = 16777216.0;  // 2^24
+template <>
+inline constexpr double kExactSquares<double> = 9007199254740992.0;  // 2^53
+template <>
+inline constexpr double kExactSquares<std::int64_t> = 9.2e18;  // Just below 2^63.
+
+/// Keeps squares of int64 differences from overflowing: what is cut is beyond every reach (kMostReach) and stays so.
+template <class T>
+ARRIS_ALWAYS_INLINE T bounded(T difference) {
+  if constexpr (std::is_same_v<T, std::int64_t>) {
+    return std::clamp(difference, std::int64_t{-1500000000}, std::int64_t{1500000000});
+  } else {
+    return difference;
+  }
+}
+
+/// Candidates as structure of arrays relative to `origin`. `T` is float, double or std::int64_t; coordinates are exact
+/// in it.
+template <class T>
+struct CandidateSet {
+  std::vector<T> x, y, z;
+  std::vector<std::uint32_t> slot;  ///< Index in tree order.
+  std::size_t count = 0;
+  std::int64_t origin[3] = {0, 0, 0};
+
+  /// Every point within `reach` steps of `box`, and some more: complete for queries inside the box up to that distance.
+  /// Arrays are padded to a multiple of simd::kPadding with points far outside of any reach. Returns false, with no
+  /// meaningful content, if a coordinate is not exact in T: the caller takes a wider type. O(points in the buckets that
+  /// the reach touches).
+  bool gather(const PointTree& tree, const ClosedBox& box, double reach);
+
+ private:
+  void make_room(std::size_t size);
+};
+
+}  // namespace arris

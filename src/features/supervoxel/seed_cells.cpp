@@ -1,0 +1,130 @@
+#include "features/supervoxel/seed_cells.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+namespace arris {
+namespace {
+
+/// Seeds of neighbouring cells are not nearer than this share of R_seed.
+constexpr double kLeastSeedDistance = 1.0 / 3.0;
+
+std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
+  const std::int64_t q = a / b;
+  return q - (a % b < 0);
+}
+
+struct CellHash {
+  std::size_t operator()(const LatticePoint& c) const {
+    std::uint64_t h = static_cast<std::uint32_t>(c.x) * 0x9E3779B97F4A7C15ULL;
+    h = (h ^ (h >> 32) ^ static_cast<std::uint32_t>(c.y)) * 0x9E3779B97F4A7C15ULL;
+    h = (h ^ (h >> 32) ^ static_cast<std::uint32_t>(c.z)) * 0x9E3779B97F4A7C15ULL;
+    return h ^ (h >> 32);
+  }
+};
+
+/// Squared distance of a centroid from the middle of a cell, in fractions of a step; exact.
+std::uint64_t squared_from_middle(const VoxelTile& tile, std::size_t v, const LatticePoint& cell,
+                                  const SupervoxelScale& scale) {
+  std::uint64_t sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int64_t middle = kVoxelFractions * scale.seed_steps * std::int64_t{cell[axis]};
+    const std::int64_t d = difference(tile.positions[v][static_cast<std::size_t>(axis)],
+                                      static_cast<std::uint32_t>(static_cast<std::uint64_t>(middle)));
+    sum += static_cast<std::uint64_t>(d * d);
+  }
+  return sum;
+}
+
+double squared_between(const VoxelTile& tile, std::uint32_t a, std::uint32_t b) {
+  double squared = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double d = difference(tile.positions[a][axis], tile.positions[b][axis]);
+    squared += d * d;
+  }
+  return squared;
+}
+
+/// True if at least `scale.least_support` voxels are reached within R_search.
+bool supported(const VoxelTile& tile, std::uint32_t seed, const SupervoxelScale& scale) {
+  const double reach = static_cast<double>(kVoxelFractions) * static_cast<double>(scale.search_steps);
+  std::vector<std::uint32_t> reached{seed};
+  for (std::size_t i = 0; i < reached.size() && reached.size() < scale.least_support; ++i) {
+    for (const std::uint32_t u : tile.neighbours_of(reached[i])) {
+      if (squared_between(tile, u, seed) > reach * reach) continue;
+      if (std::find(reached.begin(), reached.end(), u) == reached.end()) reached.push_back(u);
+    }
+  }
+  return reached.size() >= scale.least_support;
+}
+
+}  // namespace
+
+LatticePoint seed_cell(const LatticePoint& voxel, const SupervoxelScale& scale) {
+  // Twice the middle of a voxel is 2 key side, and 1 more for odd sides (core/voxel.h); cells are centred likewise.
+  const std::int64_t odd = scale.voxel_steps % 2;
+  const auto cell = [&](std::int32_t key) {
+    const std::int64_t twice_middle = 2 * std::int64_t{key} * scale.voxel_steps + odd;
+    return static_cast<std::int32_t>(floor_divide(twice_middle + scale.seed_steps, 2 * scale.seed_steps));
+  };
+  return {cell(voxel.x), cell(voxel.y), cell(voxel.z)};
+}
+
+namespace {
+
+/// A cell's best voxel.
+struct CellSeed {
+  std::uint64_t distance2 = ~std::uint64_t{0};  ///< From the middle of the cell.
+  std::uint32_t voxel = 0;
+  bool supported = false;
+};
+using CellSeeds = std::unordered_map<LatticePoint, CellSeed, CellHash>;
+
+CellSeeds best_of_cells(const VoxelTile& tile, const SupervoxelScale& scale) {
+  CellSeeds cells;
+  LatticePoint last_cell;
+  CellSeed* last = nullptr;
+  for (std::uint32_t v = 0; v < tile.size(); ++v) {
+    const LatticePoint cell = seed_cell(tile.keys[v], scale);
+    if (last == nullptr || cell != last_cell) {
+      last = &cells[cell];
+      last_cell = cell;
+    }
+    const std::uint64_t distance2 = squared_from_middle(tile, v, cell, scale);
+    if (distance2 < last->distance2) *last = {distance2, v, false};
+  }
+  for (auto& [cell, seed] : cells) seed.supported = supported(tile, seed.voxel, scale);
+  return cells;
+}
+
+/// True if a neighbouring cell has a seed so near that both stand on the same spot of a surface that runs along the
+/// face between the cells, and that one is nearer to the middle of its cell (ties: the smaller cell).
+bool crowded_out(const VoxelTile& tile, const CellSeeds& cells, const LatticePoint& cell, const CellSeed& seed,
+                 double least_distance) {
+  for (int i = 0; i < 27; ++i) {
+    const LatticePoint other_cell{cell.x + i / 9 - 1, cell.y + i / 3 % 3 - 1, cell.z + i % 3 - 1};
+    const auto other = other_cell == cell ? cells.end() : cells.find(other_cell);
+    if (other == cells.end() || !other->second.supported) continue;
+    if (squared_between(tile, seed.voxel, other->second.voxel) >= least_distance * least_distance) continue;
+    if (std::pair(other->second.distance2, other_cell) < std::pair(seed.distance2, cell)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<Seed> find_seeds(const VoxelTile& tile, const SupervoxelScale& scale) {
+  const CellSeeds cells = best_of_cells(tile, scale);
+  const double least_distance =
+      kLeastSeedDistance * static_cast<double>(kVoxelFractions) * static_cast<double>(scale.seed_steps);
+  std::vector<Seed> seeds;
+  for (const auto& [cell, seed] : cells) {
+    if (tile.core[seed.voxel] == 0 || !seed.supported) continue;
+    if (!crowded_out(tile, cells, cell, seed, least_distance)) seeds.push_back({cell, seed.voxel});
+  }
+  std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) { return a.cell < b.cell; });
+  return seeds;
+}
+
+}  // namespace arris

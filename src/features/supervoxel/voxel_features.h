@@ -1,0 +1,28 @@
+#pragma once
+/// @file What voxels are compared by.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/voxel_tile.h"
+#include "features/supervoxel/point_feature_histogram.h"
+#include "features/supervoxel/supervoxel_parameters.h"
+
+namespace arris {
+
+/// One entry per voxel of a tile; right for voxels whose feature rings are complete.
+struct VoxelFeatures {
+  std::vector<std::array<float, 3>> normals;
+  std::vector<std::array<float, 3>> colours;  ///< RGB in 0..255 (kNormal) or CIELab (kFpfh); empty without colours.
+  std::vector<FeatureHistogram> histograms;   ///< kFpfh only.
+};
+
+/// @param full_colour  raw channel value that stands for full intensity (255 or 65535).
+VoxelFeatures voxel_features(const VoxelTile& tile, const SupervoxelParameters& parameters, double full_colour);
+
+/// Peak bytes per voxel of a tile while it is loaded, described and grown; for predictions.
+/// @param neighbours  existing neighbours of a voxel on average, 0 to 26.
+double supervoxel_bytes_per_voxel(SupervoxelParameters::Features features, bool colours, double neighbours);
+
+}  // namespace arris
