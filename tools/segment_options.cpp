@@ -21,6 +21,7 @@ void add_segment_options(CLI::App& verb, SegmentOptions& o) {
   number("--angle", p.angle_deg, "Normals of neighbours in one segment differ by less, degrees");
   number("--intensity-step", p.intensity_step, "Their intensities, brought to 0 to 255, differ by less");
   number("--curvature", p.curvature, "Segments grow from points with a smaller surface variation");
+  number("--agreement", p.agreement, "Segments grow from points that this share of the neighbours is like; 0 to 1");
   number("--min-points", p.min_points, "Smaller segments are none");
   length("--inlier-distance", o.inlier_distance,
          "Farther from its plane a neighbour has less weight (length; default: from the residuals)");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "merge/segment_sides.h"
 
 namespace arris::merge {
 namespace {
@@ -20,8 +21,9 @@ struct Change {
 /// Decides for one point after the other; read only.
 class Judge {
  public:
-  Judge(const ReassignmentSetup& setup, const PointLabels& labels, const std::vector<SegmentPlane>& planes)
-      : published_(setup.parameters.published), labels_(labels), planes_(planes), limit_(planes.size()) {
+  Judge(const ReassignmentSetup& setup, const PointLabels& labels, const std::vector<SegmentPlane>& planes,
+        const SegmentSides& sides)
+      : published_(setup.parameters.published), labels_(labels), planes_(planes), sides_(sides), limit_(planes.size()) {
     for (std::size_t i = 0; i < planes.size(); ++i) {
       const double s = planes[i].spacing;
       limit_[i] = setup.parameters.reassign_distance > 0.0
@@ -35,32 +37,54 @@ class Judge {
     const std::uint32_t own = labels_[point.id];
     if (own != 0 && published_) return own;
     std::uint32_t best = own;
-    double least = own != 0 ? distance(own, point.position) : 0.0;
+    double at_best = own != 0 ? signed_distance(planes_[own - 1], point.position) : 0.0;
     for (const std::uint32_t neighbour : point.neighbours) {
       const std::uint32_t segment = labels_[neighbour];
       if (segment == 0 || segment == best) continue;
-      const double d = distance(segment, point.position);
-      if (d > limit_[segment - 1]) continue;
-      if (best == 0 || d < least || (d == least && segment < best)) {
+      const double d = signed_distance(planes_[segment - 1], point.position);
+      if (std::fabs(d) > limit_[segment - 1]) continue;
+      if (best == 0 || is_nearer(segment, d, best, at_best)) {
         best = segment;
-        least = d;
+        at_best = d;
       }
     }
     return best;
   }
 
  private:
-  double distance(std::uint32_t segment, const LatticePoint& p) const {
-    const SegmentPlane& plane = planes_[segment - 1];
-    return std::fabs(plane.normal[0] * (p.x - plane.centroid[0]) + plane.normal[1] * (p.y - plane.centroid[1]) +
-                     plane.normal[2] * (p.z - plane.centroid[2]));
+  /// Whether a point at signed distances d_a and d_b of two planes belongs to a rather than to b.
+  bool is_nearer(std::uint32_t a, double d_a, std::uint32_t b, double d_b) const {
+    const bool nearer = std::fabs(d_a) < std::fabs(d_b) || (std::fabs(d_a) == std::fabs(d_b) && a < b);
+    if (published_ || std::fabs(d_b) > limit_[b - 1]) return nearer;
+    // Each segment ends where the planes meet. Of the two planes that halve the angle, only the one between the two
+    // segments counts: the distances alone would also cut at the other, across the noise above a ridge.
+    const int side_of_a = sides_.side(a, b), side_of_b = sides_.side(b, a);
+    if (side_of_a == 0 || side_of_b == 0) return nearer;
+    const double beyond_b = side_of_a * d_b, beyond_a = side_of_b * d_a;
+    return beyond_b != beyond_a ? beyond_b > beyond_a : a < b;
   }
 
   bool published_;
   const PointLabels& labels_;
   const std::vector<SegmentPlane>& planes_;
+  const SegmentSides& sides_;
   std::vector<double> limit_;  ///< Steps.
 };
+
+/// Looks at the points of every segment that have neighbours in another.
+void learn_sides(const SegmentFrontier& frontier, const PointLabels& labels, SegmentSides& sides) {
+  frontier.for_each_block([&](std::span<const std::uint32_t> words) {
+    for (std::size_t i = 0; i < words.size() / frontier.stride(); ++i) {
+      const FrontierPoint point = frontier.point(words, i);
+      const std::uint32_t own = labels[point.id];
+      if (own == 0) continue;
+      for (std::size_t n = 0; n < point.neighbours.size(); ++n) {
+        const std::uint32_t other = labels[point.neighbours[n]];
+        if (other != 0 && other != own) sides.add(own, other, point.position);
+      }
+    }
+  });
+}
 
 void find_changes(const Judge& judge, const SegmentFrontier& frontier, const PointLabels& labels,
                   tiling::ScratchFile& changes, const CancelToken& cancel) {
@@ -103,7 +127,9 @@ std::uint64_t reassign(const ReassignmentSetup& setup, const SegmentFrontier& fr
                        const DuplicatePoints& duplicates, PointLabels& labels, SegmentMoments& moments,
                        std::vector<SegmentPlane>& planes, const CancelToken& cancel) {
   tiling::ScratchFile changes(setup.folder / "segment_changes");
-  find_changes(Judge(setup, labels, planes), frontier, labels, changes, cancel);
+  SegmentSides sides(planes);
+  if (!setup.parameters.published) learn_sides(frontier, labels, sides);
+  find_changes(Judge(setup, labels, planes, sides), frontier, labels, changes, cancel);
   const std::uint64_t count = changes.size_bytes() / sizeof(Change);
   Updater updater(labels, moments);
   std::vector<Change> block;

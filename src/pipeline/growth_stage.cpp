@@ -15,7 +15,7 @@ namespace arris::pipeline {
 GrowthResult grow_segments(io::InputSet& inputs, const GrowthSetup& setup, merge::SegmentFrontier& frontier,
                            merge::DuplicatePoints& duplicates, ProgressSink& progress, const CancelToken& cancel) {
   const TileJob& job = setup.job;
-  merge::SegmentGrowth growth(inputs.points(), setup.parameters.min_points);
+  merge::SegmentGrowth growth(inputs.points(), setup.parameters.least_component());
   const TileAnalysis analysis = [&](const TilePoints& points,
                                     std::optional<std::span<const std::uint32_t>> queries) -> TileOutcome {
     std::vector<std::uint8_t> intensities(setup.intensities.empty() ? 0 : points.ids.size());

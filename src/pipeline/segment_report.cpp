@@ -17,6 +17,7 @@ nlohmann::ordered_json segment_json(const SegmentParameters& p) {
   json["intensity"] = p.intensity;
   json["intensity_step"] = p.intensity_step;
   json["curvature"] = p.curvature;
+  json["agreement"] = p.agreement;
   json["min_points"] = p.min_points;
   json["sweeps"] = p.sweeps;
   json["reassign_distance"] = p.reassign_distance;

@@ -18,6 +18,8 @@ struct SegmentParameters {
   bool intensity = true;          ///< Compare intensities, where the points have them.
   double curvature = 0.2;         ///< Segments grow from points with a smaller sigma_p, (0, 1/3 and a little].
   std::uint32_t min_points = 20;  ///< Smaller segments are none, >= 1.
+  /// Not as published: segments grow only from points that at least this share of their neighbours is like, [0, 1].
+  double agreement = 0.3;
   int sweeps = 2;                 ///< Of the reassignment, 0 to 10.
   /// d_re: points farther from a segment's plane are not given to it; 0: max(3 RMS, kLeastReassign), at most
   /// kMostReassign, in spacings of the segment.
@@ -29,10 +31,10 @@ struct SegmentParameters {
   /// Searches stop here: radius if given, else R_max.
   double reach() const { return radius > 0.0 && radius < max_radius ? radius : max_radius; }
   std::size_t most_neighbours() const;
+  /// Smaller components are dropped before the reassignment. Not as published segments then gain the points that they
+  /// could not grow to, so fewer do, and min_points is asked afterwards.
+  std::uint32_t least_component() const { return published ? min_points : (min_points + 1) / 2; }
 };
-
-/// Share of a point's neighbours that must be like it for segments to grow from it (not as published).
-constexpr double kAgreement = 0.6;
 
 /// Throws ConfigError, naming the option, if a value is out of range.
 void validate(const SegmentParameters& parameters);

@@ -122,7 +122,7 @@ class Grower {
     std::size_t like = 0;
     for (const std::uint32_t neighbour : neighbours)
       like += points_.state(neighbour) == ShapeState::kShaped && likeness_.alike(slot, neighbour);
-    return static_cast<double>(like) >= kAgreement * static_cast<double>(neighbours.size());
+    return static_cast<double>(like) >= parameters_.agreement * static_cast<double>(neighbours.size());
   }
 
   /// Growing is asked of queries and their neighbours only.
@@ -200,7 +200,7 @@ class Grower {
 
   bool inside_component(std::uint32_t slot) const {
     const std::uint32_t component = component_[slot];
-    if (component == 0 || growth_.sizes[component - 1] < parameters_.min_points) return false;
+    if (component == 0 || growth_.sizes[component - 1] < parameters_.least_component()) return false;
     for (const std::uint32_t neighbour : points_.neighbours(slot))
       if (component_[neighbour] != component) return false;
     return true;

@@ -3,7 +3,7 @@
 ///
 /// Two points are linked if one is among the other's neighbours, both can grow, and both are alike: the angle between
 /// their normals is below the limit and their intensities differ by less than the step. A point can grow if its sigma_p
-/// is below the limit (and, not as published, if kAgreement of its neighbours are like it). Segments are the connected
+/// is below the limit (and, not as published, if a share of its neighbours are like it). Segments are the connected
 /// components of all links. As published, a point that cannot grow joins the segment of the most parallel growing point
 /// that it is linked with but for that (ties: the smallest id). With symmetric neighbours the components are what the
 /// paper's queue gives, whatever point it begins with.
@@ -46,7 +46,7 @@ struct TileGrowth {
   /// rounded down and at most 2^32 - 1 each: times pi, about the component's area.
   std::vector<std::uint64_t> discs;
   /// Queries that may have a neighbour of another segment or none, (4 + k) words each: id, x, y, z, then the ids of the
-  /// neighbours, filled up with kNoId. Contains all queries that are in no component of min_points or more.
+  /// neighbours, filled up with kNoId. Contains all queries that are in no component of least_component() or more.
   std::vector<std::uint32_t> frontier;
   std::vector<UnprovenQuery> unproven;  ///< Ascending ids; they left no trace in the rest.
   std::uint64_t isolated = 0;           ///< Queries without a normal.
