@@ -25,7 +25,9 @@ void add_segment_options(CLI::App& verb, SegmentOptions& o) {
   number("--min-points", p.min_points, "Smaller segments are none");
   length("--inlier-distance", o.inlier_distance,
          "Farther from its plane a neighbour has less weight (length; default: from the residuals)");
-  number("--sweeps", p.sweeps, "Times that points near borders are given to the nearest plane");
+  verb.add_option("--sweeps", p.sweeps,
+                  "Times that points near borders are given to the nearest plane (default 4, as published 2)")
+      ->group(group);
   length("--reassign-distance", o.reassign_distance,
          "Only if they are this near to it (length; default: 3 times its RMS)");
   verb.add_flag("--as-published", p.published,

@@ -73,8 +73,8 @@ PlanarSegments settle_segments(io::InputSet& inputs, const PlaneSetup& setup, me
     const double area = kPi * static_cast<double>(grown.discs[segment - 1]);
     segments.planes.back().spacing = std::sqrt(area / static_cast<double>(moments.points(segment)));
   }
-  progress.phase("reassignment", frontier.records() * static_cast<std::uint64_t>(setup.parameters.sweeps));
-  for (int sweep = 0; sweep < setup.parameters.sweeps; ++sweep) {
+  progress.phase("reassignment", frontier.records() * static_cast<std::uint64_t>(setup.parameters.sweep_count()));
+  for (int sweep = 0; sweep < setup.parameters.sweep_count(); ++sweep) {
     const std::uint64_t changed = merge::reassign({setup.parameters, setup.lattice.step, setup.folder}, frontier,
                                                   duplicates, segments.labels, moments, segments.planes, cancel);
     segments.reassigned += changed;

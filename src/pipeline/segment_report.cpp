@@ -19,7 +19,7 @@ nlohmann::ordered_json segment_json(const SegmentParameters& p) {
   json["curvature"] = p.curvature;
   json["agreement"] = p.agreement;
   json["min_points"] = p.min_points;
-  json["sweeps"] = p.sweeps;
+  json["sweeps"] = p.sweep_count();
   json["reassign_distance"] = p.reassign_distance;
   json["as_published"] = p.published;
   return json;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace arris {
 
@@ -20,7 +21,7 @@ struct SegmentParameters {
   std::uint32_t min_points = 20;  ///< Smaller segments are none, >= 1.
   /// Not as published: segments grow only from points that at least this share of their neighbours is like, [0, 1].
   double agreement = 0.3;
-  int sweeps = 2;                 ///< Of the reassignment, 0 to 10.
+  std::optional<int> sweeps;  ///< Of the reassignment, 0 to 10; without: 2 as published, else 4.
   /// d_re: points farther from a segment's plane are not given to it; 0: max(3 RMS, kLeastReassign), at most
   /// kMostReassign, in spacings of the segment.
   double reassign_distance = 0.0;
@@ -31,6 +32,7 @@ struct SegmentParameters {
   /// Searches stop here: radius if given, else R_max.
   double reach() const { return radius > 0.0 && radius < max_radius ? radius : max_radius; }
   std::size_t most_neighbours() const;
+  int sweep_count() const { return sweeps.value_or(published ? 2 : 4); }
   /// Smaller components are dropped before the reassignment. Not as published segments then gain the points that they
   /// could not grow to, so fewer do, and min_points is asked afterwards.
   std::uint32_t least_component() const { return published ? min_points : (min_points + 1) / 2; }
