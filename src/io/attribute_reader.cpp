@@ -10,6 +10,7 @@
 #include "io/las_extra_bytes.h"
 #include "io/las_fields.h"
 #include "io/las_file.h"
+#include "io/ply_field_names.h"
 #include "io/ply_header.h"
 #include "io/ply_record.h"
 
@@ -53,6 +54,7 @@ struct AttributeReader::Impl {
     for (const std::string& name : names) {
       int property = header.vertices().find(name);
       if (property < 0) property = header.vertices().find("scalar_" + name);
+      if (property < 0) property = find_ply_field(header.vertices(), name);
       walkers.push_back(property < 0 ? nullptr
                                      : std::make_unique<PlyRecordWalker>(header.format, header.vertices(),
                                                                          std::vector<int>{property}));

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "features/contour/contour_method.h"
+#include "pipeline/point_selection.h"
 #include "pipeline/run_support.h"
 #include "pipeline/voxel_memory.h"
 
@@ -37,6 +38,7 @@ JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, Progress
   JobPlan plan;
   plan.memory = plan_memory({request.memory_bytes, request.threads});
   plan.survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
+  refuse_missing_classes(request, plan.survey);
   plan.method = request.method;
   if (plan.method.by_supervoxels()) {
     ZhengParameters& zheng = plan.method.zheng;
