@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "features/contour/contour_method.h"
+#include "pipeline/point_selection.h"
 #include "pipeline/run_support.h"
 #include "pipeline/voxel_memory.h"
 
@@ -28,6 +29,7 @@ JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, Progress
   plan.memory_request = {request.memory_bytes, request.threads};
   plan.memory = plan_memory(plan.memory_request);
   plan.survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
+  refuse_missing_classes(request, plan.survey);
   plan.method = request.method;
   if (plan.method.by_supervoxels()) {
     ZhengParameters& zheng = plan.method.zheng;

@@ -9,7 +9,9 @@
 #include "core/parallel.h"
 #include "core/process_memory.h"
 #include "pipeline/growth_stage.h"
+#include "pipeline/intensity_stage.h"
 #include "pipeline/job_plan.h"
+#include "pipeline/point_selection.h"
 #include "pipeline/run_folder.h"
 #include "pipeline/run_support.h"
 #include "pipeline/segment_planes.h"
@@ -22,8 +24,8 @@ namespace {
 constexpr double kComponentBytesPerPoint = 2.0;
 
 /// What a scan of n points keeps in memory besides its tiles.
-std::uint64_t kept_bytes(std::uint64_t points, bool intensity) {
-  const double per_point = merge::kLabelBytesPerPoint + kComponentBytesPerPoint + (intensity ? 1.0 : 0.0);
+std::uint64_t kept_bytes(std::uint64_t points) {
+  const double per_point = merge::kLabelBytesPerPoint + kComponentBytesPerPoint;
   return static_cast<std::uint64_t>(per_point * static_cast<double>(points));
 }
 
@@ -41,6 +43,18 @@ TileJob plan_job(tiling::Survey survey, const SegmentRequest& request, SegmentPa
   needs.result_bytes_per_point = 0.5 * 4.0 * static_cast<double>(4 + parameters.most_neighbours());
   plan_tiles_of(job, needs, request, progress);
   return job;
+}
+
+/// Empty, and the parameter off, where the inputs have none.
+IntensityTable use_intensities(io::InputSet& inputs, SegmentParameters& parameters, ProgressSink& progress,
+                               const CancelToken& cancel) {
+  if (!parameters.intensity) return {};
+  IntensityTable table = read_intensities(inputs, progress, cancel);
+  if (!table.complete() && inputs.points() > 0) {
+    parameters.intensity = false;
+    progress.warning("no-intensity", "not all inputs have intensities; segments are told apart by their shape alone");
+  }
+  return table;
 }
 
 }  // namespace
@@ -66,14 +80,17 @@ SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, con
 
   tiling::Survey survey = tiling::survey_inputs(inputs, {request.lattice_step}, sink, cancel);
   problems.forward();
+  refuse_missing_classes(request, survey);
   describe_inputs(survey, inputs, request, report);
   warn_of_dropped(report, sink);
   if (report.parameters.max_radius == 0.0)
     report.parameters.max_radius = resolve_max_radius(survey, 0.0, report.parameters.radius);
   watch.lap("survey");
 
+  const IntensityTable intensities = use_intensities(inputs, report.parameters, sink, cancel);
+  if (report.parameters.intensity) watch.lap("intensity");
   const RunFolder folder(request.temp_dir);
-  const TileJob job = plan_job(std::move(survey), request, report.parameters, kept_bytes(inputs.points(), false), sink);
+  const TileJob job = plan_job(std::move(survey), request, report.parameters, kept_bytes(inputs.points()), sink);
   report.tiles = job.tiles.tiles.size();
   report.largest_tile_points = job.tiles.largest_covered_points;
   report.tile_workers = job.memory.tile_workers;
@@ -82,8 +99,9 @@ SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, con
 
   merge::SegmentFrontier frontier(folder.path() / "frontier", report.parameters.most_neighbours());
   merge::DuplicatePoints duplicates(folder.path() / "duplicates");
-  GrowthResult growth = grow_segments(inputs, {job, report.parameters, {}, request.threads, folder.path()}, frontier,
-                                      duplicates, sink, cancel);
+  GrowthResult growth =
+      grow_segments(inputs, {job, report.parameters, intensities.of_point, request.threads, folder.path()}, frontier,
+                    duplicates, sink, cancel);
   report.isolated = growth.isolated;
   report.widened_queries = growth.widened_queries;
   report.peak_temp_bytes = growth.peak_temp_bytes;
