@@ -1,10 +1,14 @@
 #include "features/ground/ground_level.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace arris {
 namespace {
+
+/// Steeper than this the coarse surface is no slope but a cliff that it blurs.
+constexpr double kSteepest = 1.0;
 
 /// Mean of the points of four cells, from the centre of the cell that they make up.
 void add_quarter(GroundMean& whole, const GroundMean& quarter, int column, int row) {
@@ -47,6 +51,14 @@ GroundLevel::GroundLevel(double cell_size, const GroundBlocks<GroundMeans>& mean
   exchange_rings(bounds);
 }
 
+/// How much higher the coarse surface is at the centre of a cell than at its mean.
+double GroundLevel::carried(const GroundMean& mean, double at_centre, double x, double y, const Surface& coarse) const {
+  const double dx = cell_size_ * static_cast<double>(mean.dx);
+  const double dy = cell_size_ * static_cast<double>(mean.dy);
+  const double most = kSteepest * (std::abs(dx) + std::abs(dy));
+  return std::clamp(at_centre - coarse(x + dx, y + dy), -most, most);
+}
+
 void GroundLevel::start(const GroundBlockKey& key, const GroundMeans& means, const Surface& coarse) {
   auto heights = std::make_unique<Heights>();
   for (int j = -1; j <= kGroundBlockSide; ++j) {
@@ -59,8 +71,7 @@ void GroundLevel::start(const GroundBlockKey& key, const GroundMeans& means, con
       const std::size_t cell = ground_cell_index(i, j);
       const GroundMean& mean = means[cell];
       if (mean.count == 0.0) continue;
-      height +=
-          mean.z - coarse(x + cell_size_ * static_cast<double>(mean.dx), y + cell_size_ * static_cast<double>(mean.dy));
+      height = mean.z + carried(mean, height, x, y, coarse);
       heights->known[cell] = true;
     }
   }

@@ -34,9 +34,10 @@ class GroundLevel {
   /// A surface that is known already: the next coarser level and those above.
   using Surface = std::function<double(double x, double y)>;
 
-  /// Cells with points get the height of their mean, carried to the centre along `coarse`; where there are none, the
-  /// heights solve Laplace's equation between them as well as a number of sweeps can that start from `coarse`. Around
-  /// the blocks the surface is `coarse` within the bounds, and out of the bounds it is level.
+  /// Cells with points get the height of their mean, carried to the centre along the slope of `coarse` (1 at most);
+  /// where there are none, the heights solve Laplace's equation between them as well as a number of sweeps can that
+  /// start from `coarse`. Around the blocks the surface is `coarse` within the bounds, and out of the bounds it is
+  /// level.
   GroundLevel(double cell_size, const GroundBlocks<GroundMeans>& means, const GroundBounds& bounds, int sweeps,
               const Surface& coarse);
 
@@ -55,6 +56,7 @@ class GroundLevel {
   double centre(std::int32_t block, int i) const {
     return (static_cast<double>(block) * kGroundBlockSide + i + 0.5) * cell_size_;
   }
+  double carried(const GroundMean& mean, double at_centre, double x, double y, const Surface& coarse) const;
   void start(const GroundBlockKey& key, const GroundMeans& means, const Surface& coarse);
   void exchange_rings(const GroundBounds& bounds);
   void sweep();

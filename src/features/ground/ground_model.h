@@ -16,7 +16,7 @@ namespace arris {
 ///
 /// Error on a plane that rises by g per unit, at cells of one unit: g / 100 where ground points are denser than the
 /// cells, g / 5 where they are 3 units apart (at the rim of what was scanned g and 5 g); in holes of 60 units g / 4, of
-/// 200 units up to 2 g. Within two cells of a cliff the error may reach a few per cent of its height; where the ground
+/// 200 units up to 2 g. Within two cells of a cliff the error may reach a tenth of its height; where the ground
 /// bends under a hole, its rim tells nothing of that.
 ///
 /// The same points give the same heights, bit for bit, in any order. Memory: 3 kB per block of the levels, at most
