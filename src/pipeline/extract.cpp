@@ -9,6 +9,7 @@
 #include "io/point_source.h"
 #include "io/point_writer.h"
 #include "merge/result_spool.h"
+#include "pipeline/contour_row.h"
 #include "pipeline/gather.h"
 #include "pipeline/job_plan.h"
 #include "pipeline/label_points.h"

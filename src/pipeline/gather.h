@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/cancel.h"
-#include "core/columns.h"
 #include "core/progress.h"
 #include "io/point_source.h"
 #include "io/point_writer.h"
@@ -12,10 +11,6 @@
 #include "pipeline/extract.h"
 
 namespace arris::pipeline {
-
-/// EdgeClass, EdgeScore, FoldAngle; refined: also EdgeX, EdgeY, EdgeZ, the way from the point to the nearest point of
-/// the refined edge, data units.
-std::vector<ColumnSpec> contour_columns(bool refined);
 
 /// Streams inputs and results side by side in the order of ids and appends to every writer; counts into `report`. Does
 /// not commit.
