@@ -21,6 +21,7 @@ struct SegmentCommand {
   SegmentOptions segment;
   SegmentFilterOptions filter;
   std::vector<std::string> outputs;
+  std::string table, outlines;
   std::string report;
   bool overwrite = false;
   bool mixed_crs = false;
@@ -53,6 +54,10 @@ int run_segment(SegmentCommand& o, Session& session) {
   request.mixed_crs = o.mixed_crs;
   request.hash_inputs = !o.report.empty();
   request.parameters = to_parameters(o.segment);
+  request.contours = o.segment.contours;
+  request.shape = o.segment.shape;
+  request.table = o.table;
+  request.outlines = o.outlines;
   request.parameters.intensity = !o.filter.no_intensity;
   if (o.filter.by_height()) request.min_height = o.filter.min_height_units();
   ProgressDisplay display(o.run.display.mode(), o.run.display.verbosity());
@@ -73,6 +78,8 @@ void add_segment(CLI::App& app, Session& session) {
   verb->add_option("-o,--output", options->outputs, "Output, .las or .ply; may be given several times")
       ->required()
       ->take_all();
+  verb->add_option("--table", options->table, "Write a line per segment with its plane: .csv or .json");
+  verb->add_option("--outlines", options->outlines, "Write the outlines of the segments as polygons: .gpkg or .obj");
   verb->add_option("--report", options->report, "Write what was done as JSON");
   verb->add_flag("--overwrite", options->overwrite, "Replace existing outputs");
   verb->add_flag("--mixed-crs", options->mixed_crs,

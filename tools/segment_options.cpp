@@ -35,6 +35,17 @@ void add_segment_options(CLI::App& verb, SegmentOptions& o) {
   verb.add_flag("--as-published", p.published,
                 "Without what arris adds: growth from consistent surroundings, borders drawn by planes")
       ->group(group);
+  const char* const shape_group = "Contours and outlines";
+  verb.add_flag("--contours", o.contours,
+                "Add EdgeClass, EdgeScore and FoldAngle: where segments end, and where two of them meet")
+      ->group(shape_group);
+  verb.add_option("--alpha-factor", o.shape.alpha_factor,
+                  "Radius of the alpha shape whose border is the outline, in spacings of the segment")
+      ->group(shape_group)
+      ->capture_default_str();
+  verb.add_option("--fold-angle", o.shape.fold_angle_deg, "Planes that meet at less make no fold, degrees")
+      ->group(shape_group)
+      ->capture_default_str();
 }
 
 SegmentParameters to_parameters(const SegmentOptions& o) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "features/segment/segment_parameters.h"
+#include "features/segment_contours/segment_contour_parameters.h"
 
 namespace CLI {
 class App;
@@ -13,6 +14,8 @@ namespace arris::tools {
 
 struct SegmentOptions {
   SegmentParameters parameters;
+  SegmentContourParameters shape;
+  bool contours = false;
   std::string radius, max_radius, inlier_distance, reassign_distance;  ///< Lengths.
 };
 

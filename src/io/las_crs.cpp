@@ -107,6 +107,7 @@ CrsSummary from_geotiff(const std::vector<std::byte>& directory, const std::vect
     crs.name = printable(registered ? fmt::format("{} (EPSG:{})", citation, code) : citation, kMaxText);
   }
   crs.text = crs.name;
+  crs.epsg = registered ? code : 0;
   return crs;
 }
 
@@ -116,7 +117,8 @@ CrsSummary describe_crs(const InputFile& file, const LasFile& las) {
   const std::vector<std::byte> wkt = find_payload(file, las, kWktRecord);
   const std::string_view text = trimmed(field_text(wkt.data(), wkt.size()));
   if (text.empty()) return from_geotiff(find_payload(file, las, kKeysRecord), find_payload(file, las, kTextsRecord));
-  return {printable(wkt_name(text), kMaxText), printable(wkt_unit(text), kMaxText), printable(text, kMaxText)};
+  return {printable(wkt_name(text), kMaxText), printable(wkt_unit(text), kMaxText), printable(text, kMaxText),
+          wkt_epsg(text)};
 }
 
 void note_crs_problems(const InputFile& file, const LasFile& las, std::vector<Problem>& problems) {

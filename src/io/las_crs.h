@@ -13,6 +13,7 @@ struct CrsSummary {
   std::string name;  ///< "RGF93 / Lambert-93"; of GeoTIFF keys their citations, else "EPSG:n".
   std::string unit;  ///< Of x and y: "metre".
   std::string text;  ///< The WKT record 2112 whole, if there is one that is not empty; else the name.
+  int epsg = 0;      ///< Code in the register of EPSG, 0 if unknown.
 };
 
 /// WKT (record 2112) if there is one that is not empty, else the GeoTIFF records (34735, 34737). Never throws for bad

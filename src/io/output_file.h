@@ -28,6 +28,8 @@ class OutputFile {
   /// Flush, fsync, rename, fsync of the folder.
   void commit();
   const std::filesystem::path& path() const { return final_path_; }
+  /// For libraries that write files themselves: the file to fill (it is there, and empty) instead of calling write().
+  const std::filesystem::path& partial_path() const { return partial_path_; }
 
  private:
   void flush();

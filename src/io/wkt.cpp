@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,7 @@ bool is_one_of(const std::string& word, std::span<const char* const> words) {
 constexpr std::array kProjected{"PROJCS", "PROJCRS", "PROJECTEDCRS"};
 constexpr std::array kGeographic{"GEOGCS", "GEOGCRS", "GEOGRAPHICCRS", "GEODCRS"};
 constexpr std::array kUnits{"UNIT", "LENGTHUNIT", "ANGLEUNIT"};
+constexpr std::array kRegisters{"AUTHORITY", "ID"};
 constexpr std::array kApart{"DATUM",      "GEODETICDATUM", "PRIMEM",   "PRIMEMERIDIAN", "BASEGEOGCRS", "BASEGEODCRS",
                             "CONVERSION", "ELLIPSOID",     "SPHEROID", "VERT_CS",       "VERTCRS"};
 
@@ -82,6 +84,21 @@ std::string wkt_unit(std::string_view text) {
     if (in_geographic && !in_projected && !lies_in(path, kApart)) geographic = name;
   });
   return projected.empty() ? geographic : projected;
+}
+
+int wkt_epsg(std::string_view text) {
+  int code = 0;
+  for_each_named_node(text, [&](const std::vector<std::string>& path, std::string_view name) {
+    if (path.size() != 2 || !is_one_of(path.back(), kRegisters) || upper(name) != "EPSG") return;
+    // `name` lies in `text`; behind its quote comes the code, a number or a quoted one.
+    std::string_view rest =
+        text.substr(std::min(static_cast<std::size_t>(name.data() - text.data()) + name.size() + 1, text.size()));
+    rest.remove_prefix(std::min(rest.find_first_not_of(", \t\n\""), rest.size()));
+    int value = 0;
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+    if (error == std::errc{} && value > 0) code = value;
+  });
+  return code;
 }
 
 }  // namespace arris::io

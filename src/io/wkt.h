@@ -13,4 +13,8 @@ std::string wkt_name(std::string_view text);
 /// Empty if the text does not say, or is damaged. Linear time; never throws for bad content.
 std::string wkt_unit(std::string_view text);
 
+/// Code of the outermost node in the register of EPSG: 2154; 0 if the text does not say, or is damaged. Linear time;
+/// never throws for bad content.
+int wkt_epsg(std::string_view text);
+
 }  // namespace arris::io

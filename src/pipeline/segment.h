@@ -2,6 +2,7 @@
 /// @file The job of `arris segment`: every point of a scan gets the id of the planar segment it lies in.
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "core/cancel.h"
 #include "core/progress.h"
 #include "features/segment/segment_parameters.h"
+#include "features/segment_contours/segment_contour_parameters.h"
 #include "pipeline/intensity_stage.h"
 #include "pipeline/run_report.h"
 #include "pipeline/run_request.h"
@@ -19,17 +21,27 @@ struct SegmentRequest : RunRequest {
   SegmentParameters parameters;  ///< max_radius 0: resolved from the survey.
   /// Points lower above the ground (points of class 2) take no part, data units; without: all do.
   std::optional<double> min_height;
+  bool contours = false;           ///< Columns EdgeClass, EdgeScore and FoldAngle as well.
+  SegmentContourParameters shape;  ///< Of contours and outlines; most_spacing 0: kMostContourSpacings of the survey's.
+  std::filesystem::path table;     ///< .csv or .json: a line per segment; empty: not wanted.
+  std::filesystem::path outlines;  ///< .gpkg or .obj: polygons; empty: not wanted.
 };
+
+/// Segments sampled more sparsely than this many spacings of the scan have contours as if they were sampled so: that
+/// bounds how far tiles must look.
+constexpr double kMostContourSpacings = 8.0;
 
 struct SegmentReport : RunReport {
   SegmentParameters parameters;  ///< As used.
   std::optional<double> min_height;
   std::vector<IntensityRange> intensities;  ///< Per input; empty if they played no part.
+  SegmentContourParameters shape;
   std::uint64_t segments = 0;
-  std::uint64_t labelled = 0;    ///< Points in a segment.
-  std::uint64_t isolated = 0;    ///< Points without a normal.
-  std::uint64_t reassigned = 0;  ///< Changes of all sweeps.
-  std::uint64_t frontier = 0;    ///< Points near borders of segments, or in none.
+  std::uint64_t boundary = 0, fold = 0;  ///< Points, if asked for.
+  std::uint64_t labelled = 0;            ///< Points in a segment.
+  std::uint64_t isolated = 0;            ///< Points without a normal.
+  std::uint64_t reassigned = 0;          ///< Changes of all sweeps.
+  std::uint64_t frontier = 0;            ///< Points near borders of segments, or in none.
   std::uint64_t widened_queries = 0;
   std::uint64_t tiles = 0;
   std::uint64_t largest_tile_points = 0;

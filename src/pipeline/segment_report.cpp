@@ -38,6 +38,7 @@ nlohmann::ordered_json to_json(const SegmentReport& r) {
                     {"labelled", r.labelled},     {"isolated", r.isolated},      {"frontier", r.frontier},
                     {"reassigned", r.reassigned}, {"widened", r.widened_queries}};
   json["segments"] = r.segments;
+  json["contours"] = {{"boundary", r.boundary}, {"fold", r.fold}};
   json["tiles"] = {{"count", r.tiles}, {"largest_points", r.largest_tile_points}, {"workers", r.tile_workers}};
   append_report_tail(json, r);
   return json;

@@ -9,12 +9,9 @@
 #include "core/lattice.h"
 #include "features/supervoxel/supervoxel_table.h"
 #include "merge/supervoxel_moments.h"
+#include "pipeline/text_rows.h"
 
 namespace arris::pipeline {
-
-/// Before any work: throws ConfigError unless the name (if not empty) ends in .csv or .json and is free or may be
-/// overwritten.
-void check_text_output(const std::filesystem::path& path, const char* option, bool overwrite);
 
 /// id, points, centroid x y z, normal nx ny nz (0 0 0: none; the sign has no meaning), area and thickness (RMS distance
 /// from the plane) in data units. CSV with a header line, or a JSON array of objects.

@@ -1,6 +1,6 @@
 // Exposure against discs tried one by one and against a Delaunay triangulation made of all triples.
 
-#include "features/zheng/alpha_exposed.h"
+#include "features/planar/alpha_exposed.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/columns.h"
-#include "features/zheng/alpha_exposed.h"
+#include "features/planar/alpha_exposed.h"
 #include "features/zheng/supervoxel_frame.h"
 #include "features/zheng/supervoxel_pair.h"
 #include "features/zheng/zheng_score.h"

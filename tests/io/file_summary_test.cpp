@@ -85,6 +85,7 @@ TEST_F(Summary, Crs_IsWktElseCitation) {
                {"LASF_Projection", 34735, geo_keys(2, 12, 25832)},
                {"LASF_Projection", 34737, std::string("ETRS89 UTM|\0xx", 14)}};
   EXPECT_EQ(of(build_las(plan)).crs.name, "ETRS89 UTM (EPSG:25832)");
+  EXPECT_EQ(of(build_las(plan)).crs.epsg, 25832);
   plan.vlrs[2].payload = "";
   EXPECT_EQ(of(build_las(plan)).crs.name, "EPSG:25832");
   plan.vlrs.push_back({"LASF_Projection", 2112, std::string("PROJCS[\"a\tb\"]\0junk", 18)});

@@ -30,15 +30,32 @@ TEST(Wkt, Unit_IsThatOfTheHorizontalAxes) {
   EXPECT_EQ(wkt_unit(R"(LOCAL_CS["l",UNIT["metre",1]])"), "");
 }
 
+TEST(Wkt, EpsgCode_IsThatOfTheWholeSystem) {
+  EXPECT_EQ(wkt_epsg(R"(PROJCS["p",GEOGCS["g",AUTHORITY["EPSG","4171"]],AUTHORITY["EPSG","2154"]])"), 2154);
+  EXPECT_EQ(wkt_epsg(R"(PROJCRS["p",BASEGEOGCRS["g"],ID["EPSG", 2154]])"), 2154);
+  EXPECT_EQ(wkt_epsg(R"(PROJCS["p",GEOGCS["g",AUTHORITY["EPSG","4171"]]])"), 0);
+  EXPECT_EQ(wkt_epsg(R"(PROJCS["p",AUTHORITY["ESRI","102100"]])"), 0);
+  EXPECT_EQ(wkt_epsg(R"(PROJCS["p",AUTHORITY["EPSG"]])"), 0);
+  EXPECT_EQ(wkt_epsg(R"(PROJCS["p",AUTHORITY["EPSG","x"]])"), 0);
+  EXPECT_EQ(wkt_epsg(R"(PROJCS["p",AUTHORITY["EPSG","99999999999999"]])"), 0);
+  EXPECT_EQ(wkt_epsg(R"(PROJCS["p",AUTHORITY["EPSG)"), 0);
+  EXPECT_EQ(wkt_epsg(kCompound), 0);
+  EXPECT_EQ(wkt_epsg(""), 0);
+}
+
 TEST(Wkt, DamagedText_IsReadWithoutHarm) {
   std::mt19937 random(1);
   const std::string whole = kCompound;
-  for (std::size_t size = 0; size < whole.size(); ++size) wkt_unit(whole.substr(0, size));
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    wkt_unit(whole.substr(0, size));
+    wkt_epsg(whole.substr(0, size));
+  }
   for (int round = 0; round < 2000; ++round) {
     std::string text = whole;
     for (int i = 0; i < 4; ++i) text[random() % text.size()] = "[]()\",A"[random() % 7];
     wkt_name(text);
     wkt_unit(text);
+    wkt_epsg(text);
   }
   wkt_unit(std::string(100000, '['));
   wkt_unit(std::string(100000, ']'));

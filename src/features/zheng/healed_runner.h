@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "features/neighbourhood/ball_search.h"
-#include "features/zheng/labelled_group.h"
+#include "features/planar/labelled_group.h"
 #include "features/zheng/seam_judge.h"
 #include "features/zheng/surface_projection.h"
 #include "features/zheng/zheng_task.h"
@@ -24,7 +24,7 @@ class HealedRunner {
   /// `slots`: queries that are close together, in tree order.
   void run(std::span<const std::uint32_t> slots);
 
-  const std::vector<ZhengFound>& found() const { return found_; }
+  const std::vector<FoundRecord>& found() const { return found_; }
   std::vector<UnprovenQuery> take_unproven() { return {}; }  ///< The halo covers every support.
 
  private:
@@ -64,7 +64,7 @@ class HealedRunner {
   std::vector<Beside> beside_;
   std::vector<Ball> balls_;
   std::vector<Proposal> proposals_;
-  std::vector<ZhengFound> found_;
+  std::vector<FoundRecord> found_;
 };
 
 }  // namespace arris

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "features/neighbourhood/point_tree.h"
-#include "features/zheng/labelled_group.h"
+#include "features/planar/labelled_group.h"
 
 namespace arris {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "features/zheng/alpha_exposed.h"
-#include "features/zheng/labelled_group.h"
+#include "features/planar/alpha_exposed.h"
+#include "features/planar/labelled_group.h"
 #include "features/zheng/supervoxel_frame.h"
 
 namespace arris {

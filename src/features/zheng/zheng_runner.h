@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "features/zheng/labelled_group.h"
+#include "features/planar/labelled_group.h"
 #include "features/zheng/surface_projection.h"
 #include "features/zheng/zheng_task.h"
 
@@ -19,7 +19,7 @@ class ZhengRunner {
   /// `slots`: queries that are close together, in tree order.
   void run(std::span<const std::uint32_t> slots);
 
-  const std::vector<ZhengFound>& found() const { return found_; }
+  const std::vector<FoundRecord>& found() const { return found_; }
   std::vector<UnprovenQuery> take_unproven() { return {}; }  ///< The halo covers every support.
 
  private:
@@ -42,7 +42,7 @@ class ZhengRunner {
   LabelledGroup group_;
   SurfaceProjection surface_;
   std::vector<Query> queries_;
-  std::vector<ZhengFound> found_;
+  std::vector<FoundRecord> found_;
 };
 
 }  // namespace arris

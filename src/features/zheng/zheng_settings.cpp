@@ -5,14 +5,13 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "features/planar/plane_frame.h"
 
 namespace arris {
 namespace {
 
 /// Squares of distances up to this many steps are exact in double.
 constexpr double kMostSteps = 67108864.0;  // 2^26
-/// Distances are measured in frames that are orthonormal to this (supervoxel_frame.h), with room to spare.
-constexpr double kFrameSlack = 1e-4;
 
 /// @param spacing, unit  in data units; the lengths are multiples of `unit`.
 ZhengLengths lengths_at(const ZhengParameters& p, double spacing, double unit) {
@@ -39,7 +38,7 @@ double zheng_reach(const ZhengParameters& p) {
   // Improved, nearest neighbours need not be mutual: the ball around the point decides.
   if (p.fold) reach = std::max(reach, (p.improved ? 1.0 : 2.0) * most.cap);
   if (p.improved) reach = std::max(reach, kLargestJudgedBall * p.spacing);
-  return reach * (1.0 + kFrameSlack);
+  return reach * (1.0 + kFrameError);
 }
 
 ZhengSettings::ZhengSettings(const ZhengParameters& p, const Lattice& lattice)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "features/contour/found_records.h"
 #include "features/contour/tile_contours.h"
 #include "features/neighbourhood/point_tree.h"
 #include "features/zheng/zheng_settings.h"
@@ -16,11 +17,6 @@ struct ZhengTask {
   std::span<const std::uint32_t> labels;  ///< In the tree's order.
   const SupervoxelTable& table;
   const ZhengSettings& settings;
-};
-
-struct ZhengFound {
-  std::uint32_t slot;
-  ContourRecord record;
 };
 
 }  // namespace arris

@@ -1,4 +1,4 @@
-#include "features/zheng/alpha_exposed.h"
+#include "features/planar/alpha_exposed.h"
 
 #include <algorithm>
 #include <cmath>

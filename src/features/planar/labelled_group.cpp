@@ -1,4 +1,4 @@
-#include "features/zheng/labelled_group.h"
+#include "features/planar/labelled_group.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,5 +1,5 @@
 #pragma once
-/// @file The points around a group of queries, sorted by their supervoxels.
+/// @file The points around a group of queries, sorted by their labels.
 
 #include <cstdint>
 #include <span>
@@ -10,14 +10,14 @@
 
 namespace arris {
 
-/// Points of one supervoxel in a LabelledGroup: [begin, end) of its columns.
+/// Points of one supervoxel or segment in a LabelledGroup: [begin, end) of its columns.
 struct LabelledPart {
   std::uint32_t label = 0;
   std::size_t begin = 0, end = 0;
 };
 
 /// Points relative to an origin, the middle of the box that they were gathered around, as structure of arrays; parts in
-/// ascending order of labels, points without a supervoxel left out. Coordinates and their differences are exact.
+/// ascending order of labels, points without one left out. Coordinates and their differences are exact.
 class LabelledGroup {
  public:
   /// All labelled points within `reach` steps of `box`, and some more.
@@ -26,7 +26,7 @@ class LabelledGroup {
   void gather(const PointTree& tree, std::span<const std::uint32_t> labels, const ClosedBox& box, double reach);
 
   const std::vector<LabelledPart>& parts() const { return parts_; }
-  /// Null if no point of the supervoxel was gathered.
+  /// Null if no point with this label was gathered.
   const LabelledPart* part(std::uint32_t label) const;
   const double* x() const { return x_.data(); }
   const double* y() const { return y_.data(); }

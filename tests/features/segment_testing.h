@@ -1,0 +1,16 @@
+#pragma once
+/// @file Planes of labelled points, for tests of what follows from them.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/lattice.h"
+#include "features/segment/segment_plane.h"
+
+namespace arris::test {
+
+/// Planes of labels 1 .. max by least squares; `spacing` steps for all.
+std::vector<SegmentPlane> planes_of(const std::vector<LatticePoint>& positions,
+                                    const std::vector<std::uint32_t>& labels, double spacing);
+
+}  // namespace arris::test
