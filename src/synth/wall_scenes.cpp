@@ -1,5 +1,6 @@
 #include <array>
 
+#include "synth/airborne.h"
 #include "synth/deterministic_math.h"
 #include "synth/mesh.h"
 #include "synth/scene_builders.h"
@@ -41,6 +42,7 @@ SceneModel build_parapet(const OptionValues& options, double /*spacing*/) {
   model.loop(EdgeKind::kConvex, "parapet", outer, 90.0);
   model.loop(EdgeKind::kConvex, "parapet", inner, 90.0);
   model.loop(EdgeKind::kConcave, "roof_border", floor, 90.0);
+  add_airborne(model, options);
   return model;
 }
 
