@@ -15,7 +15,7 @@
 namespace arris::tools {
 namespace {
 
-struct Options {
+struct SupervoxelCommand {
   RunOptions run;
   SupervoxelOptions supervoxel;
   std::string spacing;
@@ -27,7 +27,7 @@ struct Options {
   bool mixed_crs = false;
 };
 
-std::string describe(const pipeline::SupervoxelReport& r, const std::string& memory_why) {
+std::string describe_supervoxels(const pipeline::SupervoxelReport& r, const std::string& memory_why) {
   const bool fpfh = r.parameters.features == SupervoxelParameters::Features::kFpfh;
   double seconds = 0.0;
   for (const auto& [phase, s] : r.seconds) seconds += s;
@@ -45,7 +45,7 @@ std::string describe(const pipeline::SupervoxelReport& r, const std::string& mem
   return text;
 }
 
-int run(Options& o, Session& session) {
+int run_supervoxel(SupervoxelCommand& o, Session& session) {
   pipeline::SupervoxelRequest request;
   fill_run_request(o.run, request);
   request.outputs.assign(o.outputs.begin(), o.outputs.end());
@@ -59,7 +59,7 @@ int run(Options& o, Session& session) {
   ProgressDisplay display(o.run.display.mode(), o.run.display.verbosity());
   const pipeline::SupervoxelReport report = pipeline::label_supervoxels(request, display, session.cancel);
   display.finish();
-  display.note(describe(report, o.run.memory_why));
+  display.note(describe_supervoxels(report, o.run.memory_why));
   if (!o.report.empty()) write_text(o.report, to_json(report).dump(2) + "\n", o.overwrite);
   return 0;
 }
@@ -67,7 +67,7 @@ int run(Options& o, Session& session) {
 }  // namespace
 
 void add_supervoxel(CLI::App& app, Session& session) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SupervoxelCommand>();
   CLI::App* verb = app.add_subcommand("supervoxel", "Supervoxels: every point gets the id of the one it belongs to");
   add_run_options(*verb, options->run);
   verb->add_option("-o,--output", options->outputs, "Output, .las or .ply; may be given several times")
@@ -81,7 +81,8 @@ void add_supervoxel(CLI::App& app, Session& session) {
                  "Allow inputs with different coordinate reference systems in one output");
   verb->add_option("--spacing", options->spacing, "Point spacing (length; default: estimated)");
   add_supervoxel_options(*verb, options->supervoxel, "Supervoxels");
-  verb->callback([options, &session] { session.run = [options, &session] { return run(*options, session); }; });
+  verb->callback(
+      [options, &session] { session.run = [options, &session] { return run_supervoxel(*options, session); }; });
 }
 
 }  // namespace arris::tools

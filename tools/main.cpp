@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   arris::tools::add_info(app, session);
   arris::tools::add_plan(app, session);
   arris::tools::add_extract(app, session);
+  arris::tools::add_segment(app, session);
   arris::tools::add_supervoxel(app, session);
   arris::tools::add_synth(app, session);
   arris::tools::add_evaluate(app, session);

@@ -27,6 +27,9 @@ io::PointExclusion parse_exclusion(const RunOptions& o) {
     exclusion.flags = static_cast<std::uint8_t>(exclusion.flags | bit);
   }
   for (const int label : o.exclude_classes) exclusion.classes.set(static_cast<std::size_t>(label));
+  for (const int label : o.only_classes) exclusion.only_classes.set(static_cast<std::size_t>(label));
+  if (exclusion.only_classes.any() && exclusion.excluded_classes().all())
+    throw ConfigError("--exclude-class takes away all that --only-class leaves");
   return exclusion;
 }
 
@@ -45,6 +48,11 @@ void add_run_options(CLI::App& verb, RunOptions& o) {
       ->allow_extra_args(false)
       ->check(CLI::IsMember({"withheld", "overlap", "synthetic", "key-point"}));
   verb.add_option("--exclude-class", o.exclude_classes, "LAS points of these classes take no part (7,18 is noise)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0, 255));
+  verb.add_option("--only-class", o.only_classes,
+                  "Only points of these classes take part (6 is buildings, 2 is ground); PLY by its classification")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(0, 255));

@@ -25,6 +25,7 @@ struct RunOptions {
   ToleranceOptions tolerance;
   std::vector<std::string> exclude;
   std::vector<int> exclude_classes;
+  std::vector<int> only_classes;
   DisplayOptions display;
   std::string memory_why;  ///< Filled in: where the budget came from.
 };

@@ -1,7 +1,6 @@
 #include "io/attribute_reader.h"
 
 #include <array>
-#include <optional>
 #include <variant>
 
 #include "core/error.h"
@@ -10,6 +9,7 @@
 #include "io/las_extra_bytes.h"
 #include "io/las_fields.h"
 #include "io/las_file.h"
+#include "io/ply_field_names.h"
 #include "io/ply_header.h"
 #include "io/ply_record.h"
 
@@ -20,31 +20,63 @@ constexpr bool is_scalar_type(std::uint8_t type) {
   return type >= 1 && type <= 10;
 }
 
+/// A value at the same place of every record.
+struct Fixed {
+  LasField field;  ///< Its name is not used.
+  bool big_endian = false;
+};
+/// Where a value is: nowhere, there, or to be found in each record.
+using Place = std::variant<std::monostate, Fixed, std::unique_ptr<PlyRecordWalker>>;
+
+template <typename T, std::endian kOrder>
+void load_column(const PointBatch& batch, const LasField& field, double* values) {
+  const std::byte* const at = batch.records.data() + field.offset;
+  for (std::size_t i = 0; i < batch.count; ++i)
+    values[i] = static_cast<double>(load<T, kOrder>(at + batch.record_begin[i])) * field.unit;
+}
+
+void load_bits(const PointBatch& batch, const LasField& field, double* values) {
+  const std::byte* const at = batch.records.data() + field.offset;
+  for (std::size_t i = 0; i < batch.count; ++i)
+    values[i] = (load<std::uint8_t>(at + batch.record_begin[i]) >> field.shift) & field.mask;
+}
+
+void load_column(const PointBatch& batch, const Fixed& fixed, double* values) {
+  if (fixed.field.mask != 0) return load_bits(batch, fixed.field, values);
+  with_scalar_type(fixed.field.stored, [&](auto zero) {
+    if (fixed.big_endian) return load_column<decltype(zero), std::endian::big>(batch, fixed.field, values);
+    load_column<decltype(zero), std::endian::little>(batch, fixed.field, values);
+  });
+}
+
+void walk_column(const PointBatch& batch, PlyRecordWalker& walker, double* values) {
+  for (std::size_t i = 0; i < batch.count; ++i) {
+    const std::span<const std::byte> record(batch.records.data() + batch.record_begin[i],
+                                            batch.record_begin[i + 1] - batch.record_begin[i]);
+    if (walker.walk(record, true) != PlyRecordWalker::Result::kDone)
+      throw InputError("a PLY record changed while it was read");
+    values[i] = walker.value(0);
+  }
+}
+
 }  // namespace
 
 struct AttributeReader::Impl {
-  struct Field {
-    std::size_t offset;
-    ScalarType type;
-  };
-  /// A field of the point format, possibly a part of a byte, or an extra attribute.
-  using LasValue = std::variant<LasField, Field>;
-  std::vector<std::optional<LasValue>> las;               ///< Per name, LAS only.
-  std::vector<std::unique_ptr<PlyRecordWalker>> walkers;  ///< Per name, PLY only; null if absent.
+  std::vector<Place> places;  ///< Per name.
 
   void open_las(const InputFile& file, const std::vector<std::string>& names) {
     const LasFile structure = read_las_file(file);
     const ExtraBytes extra = read_extra_bytes(file, structure);
     for (const std::string& name : names) {
-      std::optional<LasValue> field;
+      Place place;
       for (const LasField& known : las_fields(structure.header.point_format)) {
-        if (known.name == name) field = known;
+        if (known.name == name) place = Fixed{known};
       }
       for (const ExtraAttribute& attribute : extra.attributes) {
         if (attribute.name == name && is_scalar_type(attribute.type))
-          field = Field{attribute.offset, attribute.part_type()};
+          place = Fixed{{"", attribute.part_type(), attribute.part_type(), attribute.offset}};
       }
-      las.push_back(field);
+      places.push_back(std::move(place));
     }
   }
 
@@ -53,10 +85,20 @@ struct AttributeReader::Impl {
     for (const std::string& name : names) {
       int property = header.vertices().find(name);
       if (property < 0) property = header.vertices().find("scalar_" + name);
-      walkers.push_back(property < 0 ? nullptr
-                                     : std::make_unique<PlyRecordWalker>(header.format, header.vertices(),
-                                                                         std::vector<int>{property}));
+      if (property < 0) property = find_ply_field(header.vertices(), name);
+      places.push_back(property < 0 ? Place() : ply_place(header, property));
     }
+  }
+
+  static Place ply_place(const PlyHeader& header, int property) {
+    const PlyElement& vertices = header.vertices();
+    if (header.format == PlyFormat::kAscii || vertices.has_list())
+      return std::make_unique<PlyRecordWalker>(header.format, vertices, std::vector<int>{property});
+    const auto index = static_cast<std::size_t>(property);
+    std::size_t offset = 0;
+    for (std::size_t i = 0; i < index; ++i) offset += size_bytes(vertices.properties[i].type);
+    const ScalarType type = vertices.properties[index].type;
+    return Fixed{{"", type, type, offset}, header.format == PlyFormat::kBigEndian};
   }
 };
 
@@ -76,28 +118,16 @@ AttributeReader::AttributeReader(const std::filesystem::path& path, const std::v
 AttributeReader::~AttributeReader() = default;
 
 bool AttributeReader::has(std::size_t index) const {
-  return impl_->las.empty() ? impl_->walkers.at(index) != nullptr : impl_->las.at(index).has_value();
+  return !std::holds_alternative<std::monostate>(impl_->places.at(index));
 }
 
 void AttributeReader::read(const PointBatch& batch, std::size_t index, std::vector<double>& values) {
   values.resize(batch.count);
-  for (std::size_t i = 0; i < batch.count; ++i) {
-    const std::span<const std::byte> record(batch.records.data() + batch.record_begin[i],
-                                            batch.record_begin[i + 1] - batch.record_begin[i]);
-    if (!impl_->las.empty()) {
-      const Impl::LasValue& value = *impl_->las[index];
-      if (const auto* field = std::get_if<LasField>(&value)) {
-        values[i] = load_field(*field, record.data());
-      } else {
-        const auto& extra = std::get<Impl::Field>(value);
-        values[i] = load_scalar(extra.type, record.data() + extra.offset);
-      }
-      continue;
-    }
-    PlyRecordWalker& walker = *impl_->walkers[index];
-    if (walker.walk(record, true) != PlyRecordWalker::Result::kDone)
-      throw InputError("a PLY record changed while it was read");
-    values[i] = walker.value(0);
+  Place& place = impl_->places.at(index);
+  if (const auto* fixed = std::get_if<Fixed>(&place)) {
+    load_column(batch, *fixed, values.data());
+  } else {
+    walk_column(batch, *std::get<std::unique_ptr<PlyRecordWalker>>(place), values.data());
   }
 }
 

@@ -11,8 +11,8 @@
 namespace arris::io {
 
 /// Reads scalar attributes as double: LAS fields by the names of las_fields.h ("intensity", "red", ...) and extra bytes
-/// of scalar type, PLY scalar properties (also under the name "scalar_<name>" that CloudCompare gives them). Not
-/// thread-safe.
+/// of scalar type, PLY scalar properties (also under the name "scalar_<name>" that CloudCompare gives them, and those
+/// of ply_field_names.h). Not thread-safe.
 class AttributeReader {
  public:
   /// Opens `path` for its header only. Throws InputError / IoError.

@@ -81,12 +81,13 @@ class LasSource final : public PointSource {
                      std::size_t count) const {
     if (!exclusion.any()) return;
     const bool extended = is_extended_format(las_.header.point_format);
+    const std::bitset<256> classes = exclusion.excluded_classes();
     for (std::size_t i = first; i < first + count; ++i, record += info_.record_bytes) {
       const auto packed = load<std::uint8_t>(record + 15);
       const unsigned label = extended ? load<std::uint8_t>(record + 16) : packed & 31U;
       unsigned flags = extended ? packed & 15U : packed >> 5;
       if (!extended && label == kLegacyOverlapClass) flags |= 8;
-      batch.excluded[i] = (flags & exclusion.flags) != 0 || exclusion.classes[label];
+      batch.excluded[i] = (flags & exclusion.flags) != 0 || classes[label];
     }
   }
 

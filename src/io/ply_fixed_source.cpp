@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <optional>
 
 #include "io/bytes.h"
 #include "io/ply_body.h"
+#include "io/ply_field_names.h"
 #include "io/ply_vertices.h"
 #include "io/read_limits.h"
 
@@ -9,13 +11,13 @@ namespace arris::io {
 namespace {
 
 template <typename T, std::endian kOrder>
-void decode_axis(const std::byte* at, std::size_t stride, std::size_t count, double* out) {
+void decode_column(const std::byte* at, std::size_t stride, std::size_t count, double* out) {
   for (std::size_t i = 0; i < count; ++i, at += stride) out[i] = static_cast<double>(load<T, kOrder>(at));
 }
 
 template <std::endian kOrder>
-void decode_axis_of_type(ScalarType type, const std::byte* at, std::size_t stride, std::size_t count, double* out) {
-  with_scalar_type(type, [&](auto zero) { decode_axis<decltype(zero), kOrder>(at, stride, count, out); });
+void decode_column_of_type(ScalarType type, const std::byte* at, std::size_t stride, std::size_t count, double* out) {
+  with_scalar_type(type, [&](auto zero) { decode_column<decltype(zero), kOrder>(at, stride, count, out); });
 }
 
 /// Binary vertices without lists: records of fixed size, found by arithmetic.
@@ -30,11 +32,8 @@ class PlyFixedSource final : public PointSource {
       // Throws if the file is too short.
       note_short_elements(*file_, header_, skip_ply_element(*file_, header_, header_.vertex, begin_), info_);
     }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto property = static_cast<std::size_t>(header_.vertices().find(kAxes[axis]));
-      types_[axis] = header_.vertices().properties[property].type;
-      for (std::size_t i = 0; i < property; ++i) offsets_[axis] += size_bytes(header_.vertices().properties[i].type);
-    }
+    for (std::size_t axis = 0; axis < 3; ++axis) axes_[axis] = column(header_.vertices().find(kAxes[axis]));
+    if (info_.has_classes) classes_ = column(find_ply_field(header_.vertices(), "classification"));
   }
 
   const SourceInfo& info() const override { return info_; }
@@ -42,15 +41,16 @@ class PlyFixedSource final : public PointSource {
 
   bool read(PointBatch& batch, const ReadOptions& options) override {
     const std::size_t count = batch_count(options.batch_points, info_.points - next_, info_.record_bytes);
-    start_ply_batch(batch, next_, count);
+    start_ply_batch(batch, next_, count, options.exclusion);
     prepare_records(batch, options.records, info_.record_bytes);
     if (count == 0) return false;
     const std::uint64_t begin = begin_ + next_ * info_.record_bytes;
     if (options.records) {
       file_->read(begin, batch.records);
       decode(batch.records.data(), 0, count, batch);
+      exclude(options.exclusion, batch.records.data(), 0, count, batch);
     } else {
-      read_coordinates(begin, batch);
+      read_coordinates(begin, options.exclusion, batch);
     }
     next_ += count;
     return true;
@@ -59,25 +59,48 @@ class PlyFixedSource final : public PointSource {
  private:
   static constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
-  void read_coordinates(std::uint64_t begin, PointBatch& batch) {
+  struct Column {
+    ScalarType type = ScalarType::kFloat64;
+    std::size_t offset = 0;  ///< In the record.
+  };
+
+  Column column(int property) const {
+    const std::vector<PlyProperty>& properties = header_.vertices().properties;
+    Column column{properties[static_cast<std::size_t>(property)].type, 0};
+    for (int i = 0; i < property; ++i) column.offset += size_bytes(properties[static_cast<std::size_t>(i)].type);
+    return column;
+  }
+
+  void read_coordinates(std::uint64_t begin, const PointExclusion& exclusion, PointBatch& batch) {
     const std::size_t block_points = std::max<std::size_t>(1, kReadBlockBytes / info_.record_bytes);
     block_.resize(std::min(block_points, batch.count) * info_.record_bytes);
     for (std::size_t first = 0; first < batch.count; first += block_points) {
       const std::size_t count = std::min(block_points, batch.count - first);
       file_->read(begin + first * info_.record_bytes, std::span(block_).first(count * info_.record_bytes));
       decode(block_.data(), first, count, batch);
+      exclude(exclusion, block_.data(), first, count, batch);
     }
+  }
+
+  void exclude(const PointExclusion& exclusion, const std::byte* records, std::size_t first, std::size_t count,
+               PointBatch& batch) {
+    if (exclusion.only_classes.none() || !classes_) return;
+    labels_.resize(count);
+    decode(*classes_, records, count, labels_.data());
+    mark_excluded(exclusion, labels_, first, batch);
   }
 
   void decode(const std::byte* records, std::size_t first, std::size_t count, PointBatch& batch) const {
     const std::array<double*, 3> out{batch.x.data() + first, batch.y.data() + first, batch.z.data() + first};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::byte* at = records + offsets_[axis];
-      if (header_.format == PlyFormat::kBigEndian) {
-        decode_axis_of_type<std::endian::big>(types_[axis], at, info_.record_bytes, count, out[axis]);
-      } else {
-        decode_axis_of_type<std::endian::little>(types_[axis], at, info_.record_bytes, count, out[axis]);
-      }
+    for (std::size_t axis = 0; axis < 3; ++axis) decode(axes_[axis], records, count, out[axis]);
+  }
+
+  void decode(const Column& column, const std::byte* records, std::size_t count, double* out) const {
+    const std::byte* at = records + column.offset;
+    if (header_.format == PlyFormat::kBigEndian) {
+      decode_column_of_type<std::endian::big>(column.type, at, info_.record_bytes, count, out);
+    } else {
+      decode_column_of_type<std::endian::little>(column.type, at, info_.record_bytes, count, out);
     }
   }
 
@@ -85,10 +108,11 @@ class PlyFixedSource final : public PointSource {
   PlyHeader header_;
   SourceInfo info_;
   std::uint64_t begin_ = 0;  ///< Offset in the file of the first vertex.
-  std::array<ScalarType, 3> types_{};
-  std::array<std::size_t, 3> offsets_{};
+  std::array<Column, 3> axes_{};
+  std::optional<Column> classes_;
   std::uint64_t next_ = 0;
   std::vector<std::byte> block_;
+  std::vector<double> labels_;  ///< Classifications of a block.
 };
 
 }  // namespace

@@ -1,42 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "io/ply_field_names.h"
 #include "io/ply_record.h"
 #include "io/record_readers.h"
 
 namespace arris::io {
 namespace {
-
-struct Alias {
-  const char* common;
-  std::array<const char*, 5> others;
-};
-
-/// Names under which programs export the fields of LAS points to PLY; the first that is there is taken.
-constexpr std::array<Alias, 16> kAliases{{
-    {"intensity", {"Intensity", "scalar_Intensity", "scalar_intensity", "reflectance", "scalar_reflectance"}},
-    {"return_number", {"scalar_Return_Number", "scalar_ReturnNumber", "return_num"}},
-    {"number_of_returns", {"scalar_Number_Of_Returns", "scalar_NumberOfReturns"}},
-    {"classification", {"Classification", "scalar_Classification", "scalar_classification"}},
-    {"classification_flags", {"scalar_ClassFlags", "ClassFlags"}},
-    {"scanner_channel", {"scalar_ScannerChannel", "scalar_Scanner_Channel", "ScanChannel"}},
-    {"scan_direction_flag", {"scalar_ScanDirectionFlag", "scalar_Scan_Direction", "ScanDirectionFlag"}},
-    {"edge_of_flight_line", {"scalar_EdgeOfFlightLine", "EdgeOfFlightLine"}},
-    {"scan_angle", {"scalar_ScanAngle", "scalar_Scan_Angle", "scalar_ScanAngleRank", "ScanAngleRank"}},
-    {"user_data", {"scalar_User_Data", "scalar_UserData", "UserData"}},
-    {"point_source_id", {"scalar_Point_Source_ID", "scalar_PointSourceId", "pt_src_id", "PointSourceId"}},
-    {"gps_time", {"scalar_Gps_Time", "scalar_GpsTime", "GpsTime"}},
-    {"red", {"diffuse_red", "r", "Red"}},
-    {"green", {"diffuse_green", "g", "Green"}},
-    {"blue", {"diffuse_blue", "b", "Blue"}},
-    {"nir", {"infrared", "scalar_Near_Infrared", "Infrared"}},
-}};
 
 class PlyRecordReader final : public RecordReader {
  public:
@@ -71,11 +46,11 @@ class PlyRecordReader final : public RecordReader {
     for (const PlyProperty& property : header_.vertices().properties) {
       if (!property.is_list) names.insert(property.name);
     }
-    for (const Alias& alias : kAliases) {
-      if (names.contains(alias.common)) continue;
-      const auto first = std::find_if(alias.others.begin(), alias.others.end(),
+    for (const PlyFieldAlias& alias : ply_field_aliases()) {
+      if (names.contains(alias.field)) continue;
+      const auto first = std::find_if(alias.names.begin(), alias.names.end(),
                                       [&](const char* other) { return other != nullptr && names.contains(other); });
-      if (first != alias.others.end()) common_names_.emplace(*first, alias.common);
+      if (first != alias.names.end()) common_names_.emplace(*first, alias.field);
     }
   }
 

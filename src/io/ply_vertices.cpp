@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/text.h"
 #include "io/bytes.h"
 #include "io/ply_body.h"
+#include "io/ply_field_names.h"
 
 namespace arris::io {
 
@@ -15,6 +18,7 @@ SourceInfo make_ply_info(const InputFile& file, const PlyHeader& header, Toleran
   info.layout = fmt::format("PLY {} {}", header.format_name(), printable(header.version, 40));
   info.size_bytes = file.size_bytes();
   info.points = header.vertices().count;
+  info.has_classes = find_ply_field(header.vertices(), "classification") >= 0;
   info.problems = header.problems;
   info.tolerance = tolerance;
   info.modified_ns = file.modified_ns();
@@ -56,12 +60,22 @@ void note_short_elements(const InputFile& file, const PlyHeader& header, std::ui
   }
 }
 
-void start_ply_batch(PointBatch& batch, std::uint64_t first_id, std::size_t count) {
+void start_ply_batch(PointBatch& batch, std::uint64_t first_id, std::size_t count, const PointExclusion& exclusion) {
   batch.first_id = first_id;
   batch.count = count;
-  batch.excluded.clear();
+  batch.excluded.assign(exclusion.only_classes.any() ? count : 0, 1);
   for (auto* stored : {&batch.ix, &batch.iy, &batch.iz}) stored->clear();
   for (auto* world : {&batch.x, &batch.y, &batch.z}) world->resize(count);
+}
+
+void mark_excluded(const PointExclusion& exclusion, std::span<const double> classes, std::size_t first,
+                   PointBatch& batch) {
+  const std::bitset<256> excluded = exclusion.excluded_classes();
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const double label = classes[i];
+    const bool whole = label >= 0.0 && label <= 255.0 && label == std::floor(label);
+    batch.excluded[first + i] = !whole || excluded[static_cast<std::size_t>(label)];
+  }
 }
 
 }  // namespace arris::io

@@ -2,6 +2,7 @@
 /// @file What the readers of PLY vertices share.
 
 #include <memory>
+#include <span>
 
 #include "io/input_file.h"
 #include "io/ply_header.h"
@@ -26,7 +27,12 @@ void salvage_vertices(const InputFile& file, const PlyHeader& header, std::uint6
 /// Elements behind the vertices are not read; that the file is too short or too long for them shows all the same.
 void note_short_elements(const InputFile& file, const PlyHeader& header, std::uint64_t vertices_end, SourceInfo& info);
 
-/// Makes room for `count` world coordinates.
-void start_ply_batch(PointBatch& batch, std::uint64_t first_id, std::size_t count);
+/// Makes room for `count` world coordinates, and for what excludes them if PointExclusion::only_classes does: all are
+/// excluded until mark_excluded() has seen their classes.
+void start_ply_batch(PointBatch& batch, std::uint64_t first_id, std::size_t count, const PointExclusion& exclusion);
+
+/// @param classes  classifications of the points from `first` on.
+void mark_excluded(const PointExclusion& exclusion, std::span<const double> classes, std::size_t first,
+                   PointBatch& batch);
 
 }  // namespace arris::io

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/ply_body.h"
+#include "io/ply_field_names.h"
 #include "io/ply_vertices.h"
 #include "io/read_limits.h"
 
@@ -17,8 +18,7 @@ class PlyWalkedSource final : public PointSource {
         header_(std::move(header)),
         info_(make_ply_info(*file_, header_, tolerance)),
         window_(*file_),
-        walker_(header_.format, header_.vertices(),
-                {header_.vertices().find("x"), header_.vertices().find("y"), header_.vertices().find("z")}) {
+        walker_(header_.format, header_.vertices(), wanted(header_.vertices())) {
     begin_ = find_ply_element(*file_, header_, header_.vertex);
     salvage_vertices(*file_, header_, begin_, info_);
     check_count();
@@ -36,7 +36,9 @@ class PlyWalkedSource final : public PointSource {
   bool read(PointBatch& batch, const ReadOptions& options) override {
     const auto most = static_cast<std::size_t>(
         std::min<std::uint64_t>(std::max<std::size_t>(1, options.batch_points), info_.points - next_));
-    start_ply_batch(batch, next_, most);
+    start_ply_batch(batch, next_, most, options.exclusion);
+    const bool by_class = info_.has_classes && options.exclusion.only_classes.any();
+    labels_.clear();
     batch.records.clear();
     batch.record_begin.clear();
     std::size_t bytes = 0;
@@ -47,18 +49,27 @@ class PlyWalkedSource final : public PointSource {
       batch.x[count] = walker_.value(0);
       batch.y[count] = walker_.value(1);
       batch.z[count] = walker_.value(2);
+      if (by_class) labels_.push_back(walker_.value(3));
       if (options.records) keep_record(batch);
       bytes += walker_.end();
       window_.consume(walker_.end());
     }
     if (options.records) batch.record_begin.push_back(batch.records.size());
-    if (count < most) start_ply_batch(batch, next_, count);
+    if (count < most) start_ply_batch(batch, next_, count, options.exclusion);
+    if (by_class) mark_excluded(options.exclusion, labels_, 0, batch);
     next_ += count;
     if (count > 0 && next_ == info_.points) check_rest();
     return count > 0;
   }
 
  private:
+  static std::vector<int> wanted(const PlyElement& vertices) {
+    std::vector<int> properties{vertices.find("x"), vertices.find("y"), vertices.find("z")};
+    const int classes = find_ply_field(vertices, "classification");
+    if (classes >= 0) properties.push_back(classes);
+    return properties;
+  }
+
   void keep_record(PointBatch& batch) const {
     const auto record = window_.bytes().first(walker_.end()).subspan(walker_.begin());
     batch.record_begin.push_back(batch.records.size());
@@ -117,7 +128,8 @@ class PlyWalkedSource final : public PointSource {
   PlyRecordWalker walker_;
   std::uint64_t begin_ = 0;  ///< Offset in the file of the first vertex or the white space before it.
   std::uint64_t next_ = 0;
-  bool mid_line_ = false;  ///< A vertex began within the line of the one before.
+  std::vector<double> labels_;  ///< Classifications of a batch.
+  bool mid_line_ = false;       ///< A vertex began within the line of the one before.
 };
 
 }  // namespace

@@ -138,12 +138,28 @@ void InputSet::rewind() {
   first_id_ = 0;
 }
 
+void InputSet::exclude(const PointExclusion& exclusion) {
+  for (const SourceInfo& source : infos_) {
+    if (exclusion.only_classes.none() || source.has_classes) continue;
+    throw InputError(
+        fmt::format("{}: has no property \"classification\", so its points are of none of the classes asked for; "
+                    "classify it, or leave out --only-class",
+                    printable(source.path.string(), 1000)));
+  }
+  exclusion_ = exclusion;
+}
+
 bool InputSet::read(PointBatch& batch, const ReadOptions& wanted) {
   ReadOptions options = wanted;
-  if (exclusion_.any()) options.exclusion = exclusion_;
+  const bool own = !wanted.exclusion.any();
+  if (own) options.exclusion = exclusion_;
   for (;;) {
     if (open_ && open_->read(batch, options)) {
       batch.first_id += first_id_;
+      if (own && !filters_.empty()) {
+        batch.excluded.resize(batch.count, 0);
+        for (const PointFilter& filter : filters_) filter(current_, batch);
+      }
       return true;
     }
     if (open_) {

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace arris::io {
@@ -43,16 +45,21 @@ struct SourceInfo {
   std::array<double, 3> offset{0.0, 0.0, 0.0};
   /// Size of one original record; 0 where records have no fixed size (PLY ascii or with lists).
   std::size_t record_bytes = 0;
+  bool has_classes = true;                  ///< Points are classified: LAS, and PLY with a property for it.
   std::vector<Problem> problems;            ///< Found while opening; worth a warning each.
   Tolerance tolerance = Tolerance::kUsual;  ///< With which it was opened.
   std::int64_t modified_ns = 0;             ///< Time of the file's last change, nanoseconds since 1970.
 };
 
-/// Points that are to take no part, by what LAS says of them. (PLY points are never excluded.)
+/// Points that are to take no part, by what LAS says of them. PLY points are excluded only by `only_classes`: then they
+/// are judged by their classification property, and points without a whole number of 0 to 255 there are of no class.
 struct PointExclusion {
-  std::uint8_t flags = 0;    ///< Any of: 1 synthetic, 2 key point, 4 withheld, 8 overlap (also class 12 of 0-5).
-  std::bitset<256> classes;  ///< Classifications.
-  bool any() const { return flags != 0 || classes.any(); }
+  std::uint8_t flags = 0;         ///< Any of: 1 synthetic, 2 key point, 4 withheld, 8 overlap (also class 12 of 0-5).
+  std::bitset<256> classes;       ///< Classifications.
+  std::bitset<256> only_classes;  ///< If there are any: points of all other classes too.
+  bool any() const { return flags != 0 || classes.any() || only_classes.any(); }
+  /// `classes` and, if there are any, all but `only_classes`.
+  std::bitset<256> excluded_classes() const { return only_classes.any() ? classes | ~only_classes : classes; }
 };
 
 /// Points as structure of arrays; capacity is reused from call to call.
@@ -64,7 +71,7 @@ struct PointBatch {
   /// World coordinates, `count` each; only if not scaled_integers. May hold NaN and infinities. A number in a PLY ascii
   /// file is taken with all its digits, even where its property is declared float.
   std::vector<double> x, y, z;
-  /// Nonzero for points that ReadOptions::exclusion names; empty if there are none to look for.
+  /// Nonzero for points that take no part; empty if nothing excludes any (ReadOptions::exclusion, InputSet).
   std::vector<std::uint8_t> excluded;
   /// Original records, only if asked for: point i occupies records[record_begin[i], record_begin[i + 1]).
   std::vector<std::byte> records;
@@ -82,7 +89,7 @@ struct ReadOptions {
   bool records = false;  ///< Deliver the original records as well as the coordinates.
   /// Most points per batch, >= 1. Batches may be smaller: their records take about 4 MiB at most, or one longer record.
   std::size_t batch_points = 64 * 1024;
-  PointExclusion exclusion{};
+  PointExclusion exclusion{};  ///< An InputSet applies it, if it names any, in place of its own exclusion and filters.
 };
 
 /// One file as a rewindable stream. Memory is bounded by the batch and a fixed read buffer (not mapped: a file that is
@@ -98,6 +105,10 @@ class PointSource {
   /// counts from 0 within this source. Throws InputError for damaged content, IoError if reading fails.
   virtual bool read(PointBatch& batch, const ReadOptions& options) = 0;
 };
+
+/// Marks more points of a batch as excluded (`batch.excluded` has batch.count entries). It must give the same for the
+/// same point in every pass. @param source  index of the batch's source.
+using PointFilter = std::function<void(std::size_t source, PointBatch& batch)>;
 
 class InputFile;
 
@@ -124,8 +135,11 @@ class InputSet {
   /// As PointSource::read, with global ids. A batch never crosses a file: source_index() tells which one it came from.
   bool read(PointBatch& batch, const ReadOptions& options);
   std::size_t source_index() const { return current_; }
-  /// For all reads from now on, instead of what their options say.
-  void exclude(const PointExclusion& exclusion) { exclusion_ = exclusion; }
+  /// For all reads from now on whose options name no exclusion of their own. Throws InputError if it asks for classes
+  /// (only_classes) of a file that has none.
+  void exclude(const PointExclusion& exclusion);
+  /// For the same reads, on top of exclude() and of the filters before.
+  void add_filter(PointFilter filter) { filters_.push_back(std::move(filter)); }
   /// Throws InputError if a file is no longer what it was when the set was made (size, time of change).
   void check_unchanged() const;
 
@@ -137,6 +151,7 @@ class InputSet {
   std::uint64_t first_id_ = 0;  ///< Global id of the first point of the open source.
   std::unique_ptr<PointSource> open_;
   PointExclusion exclusion_;
+  std::vector<PointFilter> filters_;
 };
 
 }  // namespace arris::io

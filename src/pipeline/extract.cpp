@@ -47,16 +47,22 @@ std::unique_ptr<const LabelledScene> label_scene(io::InputSet& inputs, const Job
   return labelled;
 }
 
-/// What the method does with a tile. @param labelled  null unless the method works by supervoxels.
-TileAnalysis analysis_of(const JobPlan& plan, const LabelledScene* labelled) {
-  if (labelled == nullptr) {
-    return [&plan](const TilePoints& points) { return extract_contours(points, plan.survey.lattice, plan.method); };
-  }
-  return [&plan, labelled](const TilePoints& points) {
-    VoxelLabels label_of = labelled->scene.labels();
-    std::vector<std::uint32_t> labels(points.positions.size());
-    for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = label_of.at(points.positions[i]);
-    return extract_zheng(points, labels, labelled->table, plan.survey.lattice, plan.method.zheng);
+TileContours extract_labelled(const TilePoints& points, const JobPlan& plan, const LabelledScene& labelled) {
+  VoxelLabels label_of = labelled.scene.labels();
+  std::vector<std::uint32_t> labels(points.positions.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = label_of.at(points.positions[i]);
+  return extract_zheng(points, labels, labelled.table, plan.survey.lattice, plan.method.zheng);
+}
+
+/// What the method does with a tile. @param labelled  null unless the method works by supervoxels, which has no
+/// unproven queries and so is never asked about some of a tile's points.
+TileAnalysis analysis_of(const JobPlan& plan, const LabelledScene* labelled, merge::ResultSpool& results) {
+  return [&plan, &results, labelled](const TilePoints& points, std::optional<std::span<const std::uint32_t>> queries) {
+    TileContours found = labelled  ? extract_labelled(points, plan, *labelled)
+                         : queries ? extract_contours(points, plan.survey.lattice, plan.method, *queries)
+                                   : extract_contours(points, plan.survey.lattice, plan.method);
+    results.append(std::move(found.records));
+    return TileOutcome{std::move(found.unproven), found.isolated};
   };
 }
 
@@ -69,8 +75,10 @@ ExtractReport plan_only(const ExtractRequest& request, ProgressSink& progress, c
   io::InputSet inputs(io::expand_inputs(request.inputs), request.tolerance);
   inputs.exclude(request.exclusion);
   JobPlan plan = survey_job(inputs, request, sink, cancel);
-  if (plan.method.by_supervoxels())
-    plan.memory = plan_memory({request.memory_bytes, request.threads, predicted_scene_bytes(plan.survey, plan.scale)});
+  if (plan.method.by_supervoxels()) {
+    plan.memory_request.kept_bytes = predicted_scene_bytes(plan.survey, plan.scale);
+    plan.memory = plan_memory(plan.memory_request);
+  }
   plan_job_tiles(plan, request, sink);
   describe_plan(plan, inputs, request, report);
   warn_of_dropped(report, sink);
@@ -104,7 +112,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     report.supervoxels = labelled->scene.clusters.count;
     report.voxel_tiles = labelled->scene.clusters.tiles;
     report.peak_temp_bytes = labelled->scene.peak_temp_bytes;
-    plan.memory = plan_memory({request.memory_bytes, request.threads});
+    plan.memory = plan_memory(plan.memory_request);
     watch.lap("supervoxels");
   }
   plan_job_tiles(plan, request, sink);
@@ -120,11 +128,11 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     const ThreadLimit limit(request.threads - plan.memory.tile_workers + 1);
     tiling::TileStore store(folder.path(), plan.survey.lattice, plan.tiles, "");
     MemoryBudget budget(plan.memory.tiles_bytes);
-    const TileStageResult tiles = run_tile_stage(inputs, plan, analysis_of(plan, labelled.get()), folder.path(), store,
-                                                 budget, results, sink, cancel);
+    const TileAnalysis analysis = analysis_of(plan, labelled.get(), results);
+    const TileStageResult tiles = run_tile_stage(inputs, plan, analysis, folder.path(), store, budget, sink, cancel);
     report.peak_temp_bytes = std::max({report.peak_temp_bytes, tiles.spooled_bytes, folder_bytes(folder.path())});
     watch.lap("tiles");
-    const WidenResult widened = run_widen_stage(plan, tiles.unproven, folder.path(), store, results, sink, cancel);
+    const WidenResult widened = run_widen_stage(plan, tiles.unproven, analysis, folder.path(), store, sink, cancel);
     report.isolated = tiles.isolated + widened.isolated;
     report.widened_queries = widened.queries;
     watch.lap("widen");

@@ -3,25 +3,21 @@
 
 #include "io/point_source.h"
 #include "pipeline/extract.h"
-#include "pipeline/memory_plan.h"
-#include "tiling/survey.h"
-#include "tiling/tile_plan.h"
+#include "pipeline/tile_job.h"
 
 namespace arris::pipeline {
 
-struct JobPlan {
-  tiling::Survey survey;
+struct JobPlan : TileJob {
   ContourParameters method;  ///< Resolved.
   SupervoxelScale scale;     ///< Of methods by supervoxels.
-  MemoryPlan memory;
-  tiling::TilePlan tiles;
-  std::uint64_t predicted_peak_bytes = 0;
-  std::uint64_t predicted_temp_bytes = 0;
 };
 
 /// R_max, where the user gives none, in units of the survey's spacing. Wide enough for scans whose density falls with
 /// the square of the range: spacing may grow 20-fold from where most points are to where the least are.
 constexpr double kMaxRadiusSpacings = 120.0;
+
+/// How far neighbours are looked for, where the user says nothing. @param spacing  0: the survey's.
+double resolve_max_radius(const tiling::Survey& survey, double spacing, double at_least);
 
 /// Survey and parameters. Reads the inputs once (twice for floating-point coordinates). Throws BudgetError if memory
 /// cannot do for any scan.

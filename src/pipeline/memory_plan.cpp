@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "core/process_memory.h"
 #include "core/text.h"
-#include "features/contour/contour_method.h"
 #include "tiling/tile_store.h"
 
 namespace arris::pipeline {
@@ -23,46 +22,51 @@ constexpr std::uint64_t kLargestTilePoints = 2'000'000;
 /// Kept free: the allocator's fragments and what predictions miss.
 constexpr double kSafety = 0.92;
 
-std::uint64_t fixed_bytes(int threads, std::uint64_t spool_buffer_bytes) {
-  return resident_bytes() + kPassBytes + spool_buffer_bytes +
-         static_cast<std::uint64_t>(threads) * static_cast<std::uint64_t>(kContourBytesPerThread);
+std::uint64_t fixed_bytes(const MemoryRequest& request, std::uint64_t spool_buffer_bytes) {
+  return request.kept_bytes + resident_bytes() + kPassBytes + spool_buffer_bytes +
+         static_cast<std::uint64_t>(request.threads) * static_cast<std::uint64_t>(request.method.per_thread);
 }
 
 std::uint64_t spool_buffer_bytes(std::uint64_t budget_bytes) {
   return std::clamp<std::uint64_t>(budget_bytes / 32, kLeastSpoolBytes, 64 * kMiB);
 }
 
-}  // namespace
-
-std::uint64_t tile_bytes(std::uint64_t points) {
+std::uint64_t bytes_of_tile(std::uint64_t points, const MethodBytes& method) {
   const auto analyse =
-      tiling::load_bytes(points) + static_cast<std::uint64_t>(kContourBytesPerPoint * static_cast<double>(points));
+      tiling::load_bytes(points) + static_cast<std::uint64_t>(method.per_point * static_cast<double>(points));
   return std::max(tiling::build_bytes(points), analyse);
 }
 
-std::uint64_t least_budget_bytes(std::uint64_t points, int threads) {
-  const std::uint64_t needed = fixed_bytes(threads, kLeastSpoolBytes) + tile_bytes(points);
+}  // namespace
+
+std::uint64_t MemoryPlan::tile_bytes(std::uint64_t points) const {
+  return bytes_of_tile(points, method);
+}
+
+std::uint64_t least_budget_bytes(std::uint64_t points, const MemoryRequest& request) {
+  const std::uint64_t needed = fixed_bytes(request, kLeastSpoolBytes) + bytes_of_tile(points, request.method);
   return static_cast<std::uint64_t>(static_cast<double>(needed) / kSafety) + kMiB;
 }
 
 MemoryPlan plan_memory(const MemoryRequest& request) {
   MemoryPlan plan;
   plan.budget_bytes = request.budget_bytes;
+  plan.method = request.method;
   plan.spool_buffer_bytes = spool_buffer_bytes(request.budget_bytes);
-  plan.fixed_bytes = request.kept_bytes + fixed_bytes(request.threads, plan.spool_buffer_bytes);
+  plan.fixed_bytes = fixed_bytes(request, plan.spool_buffer_bytes);
   const auto usable = static_cast<std::uint64_t>(kSafety * static_cast<double>(request.budget_bytes));
-  if (usable < plan.fixed_bytes + tile_bytes(kLeastTilePoints)) {  // Short of memory: the least buffer.
+  if (usable < plan.fixed_bytes + plan.tile_bytes(kLeastTilePoints)) {  // Short of memory: the least buffer.
     plan.spool_buffer_bytes = kLeastSpoolBytes;
-    plan.fixed_bytes = request.kept_bytes + fixed_bytes(request.threads, plan.spool_buffer_bytes);
+    plan.fixed_bytes = fixed_bytes(request, plan.spool_buffer_bytes);
   }
-  if (usable < plan.fixed_bytes + tile_bytes(kLeastTilePoints)) {
-    throw BudgetError(
-        fmt::format("--memory {} is too small: this run needs at least {}", human_bytes(request.budget_bytes),
-                    human_bytes(request.kept_bytes + least_budget_bytes(kLeastTilePoints, request.threads))));
+  if (usable < plan.fixed_bytes + plan.tile_bytes(kLeastTilePoints)) {
+    throw BudgetError(fmt::format("--memory {} is too small: this run needs at least {}",
+                                  human_bytes(request.budget_bytes),
+                                  human_bytes(least_budget_bytes(kLeastTilePoints, request))));
   }
   plan.tiles_bytes = usable - plan.fixed_bytes;
   plan.tile_workers = request.threads;
-  while (plan.tile_workers > 1 && tile_bytes(kLeastTilePoints) * plan.tile_workers > plan.tiles_bytes)
+  while (plan.tile_workers > 1 && plan.tile_bytes(kLeastTilePoints) * plan.tile_workers > plan.tiles_bytes)
     --plan.tile_workers;
 
   const std::uint64_t share = plan.tiles_bytes / plan.tile_workers;
@@ -70,7 +74,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   std::uint64_t high = kLargestTilePoints + 1;  // Largest number of points whose tile fits lies in [low, high).
   while (high - low > 1) {
     const std::uint64_t middle = low + (high - low) / 2;
-    (tile_bytes(middle) <= share ? low : high) = middle;
+    (plan.tile_bytes(middle) <= share ? low : high) = middle;
   }
   plan.max_tile_points = low;
   return plan;

@@ -3,12 +3,21 @@
 
 #include <cstdint>
 
+#include "features/contour/contour_method.h"
+
 namespace arris::pipeline {
+
+/// What analysing a tile takes beyond the tile itself.
+struct MethodBytes {
+  double per_point = kContourBytesPerPoint;
+  double per_thread = kContourBytesPerThread;
+};
 
 struct MemoryRequest {
   std::uint64_t budget_bytes = 0;
   int threads = 1;
   std::uint64_t kept_bytes = 0;  ///< What will be resident besides, and is not yet.
+  MethodBytes method{};
 };
 
 /// The division. fixed_bytes + tile_workers tiles of max_tile_points fit into the budget.
@@ -19,17 +28,18 @@ struct MemoryPlan {
   std::uint64_t spool_buffer_bytes = 0;
   int tile_workers = 1;               ///< Tiles in flight at most.
   std::uint64_t max_tile_points = 0;  ///< Covered points per tile.
-};
+  MethodBytes method;
 
-/// Predicted peak bytes of one tile of `points` covered points: the larger of building it and of loading and analysing
-/// it.
-std::uint64_t tile_bytes(std::uint64_t points);
+  /// Predicted peak bytes of one tile of `points` covered points: the larger of building it and of loading and
+  /// analysing it.
+  std::uint64_t tile_bytes(std::uint64_t points) const;
+};
 
 /// Throws BudgetError with the least budget that would do if not even tiles of kLeastTilePoints fit.
 MemoryPlan plan_memory(const MemoryRequest& request);
 
 /// The budget that lets one tile of `points` covered points be processed alone.
-std::uint64_t least_budget_bytes(std::uint64_t points, int threads);
+std::uint64_t least_budget_bytes(std::uint64_t points, const MemoryRequest& request);
 
 constexpr std::uint64_t kLeastTilePoints = 50'000;
 

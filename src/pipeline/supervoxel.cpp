@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "core/process_memory.h"
 #include "pipeline/label_points.h"
+#include "pipeline/point_selection.h"
 #include "pipeline/run_folder.h"
 #include "pipeline/run_support.h"
 #include "pipeline/supervoxel_scene.h"
@@ -42,6 +43,7 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
 
   const tiling::Survey survey = tiling::survey_inputs(inputs, {request.lattice_step}, sink, cancel);
   problems.forward();
+  refuse_missing_classes(request, survey);
   describe_inputs(survey, inputs, request, report);
   warn_of_dropped(report, sink);
   const double spacing = request.spacing > 0.0 ? request.spacing : survey.spacing;

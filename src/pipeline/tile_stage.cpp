@@ -3,6 +3,9 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
+#include <atomic>
+#include <mutex>
+
 #include "core/file_descriptor.h"
 #include "core/parallel.h"
 #include "core/process_memory.h"
@@ -51,43 +54,42 @@ std::vector<UnprovenQuery> read_queries(const std::filesystem::path& path) {
   return queries;
 }
 
-TileStageResult run_tile_stage(io::InputSet& inputs, const JobPlan& plan, const TileAnalysis& analysis,
+TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const TileAnalysis& analysis,
                                const std::filesystem::path& folder, tiling::TileStore& store, MemoryBudget& budget,
-                               merge::ResultSpool& results, ProgressSink& progress, const CancelToken& cancel) {
+                               ProgressSink& progress, const CancelToken& cancel) {
   TileStageResult stage;
-  stage.unproven.assign(plan.tiles.tiles.size(), 0);
+  stage.unproven.assign(job.tiles.tiles.size(), 0);
   std::atomic<std::uint64_t> isolated{0};
   TileProgress tile_progress(progress);
 
   const auto analyse = [&](std::size_t tile) {
     cancel.check();
-    const tiling::PlannedTile& planned = plan.tiles.tiles[tile];
-    const MemoryBudget::Reservation bytes = budget.reserve(tile_bytes(planned.covered_points));
+    const tiling::PlannedTile& planned = job.tiles.tiles[tile];
+    const MemoryBudget::Reservation bytes = budget.reserve(job.memory.tile_bytes(planned.covered_points));
     store.build(tile);
-    TileContours contours;
+    TileOutcome outcome;
     {
       TilePoints points = store.load(tile);
-      points.covered = points.covered.unlimited_beyond(plan.survey.bounds);
-      contours = analysis(points);
+      points.covered = points.covered.unlimited_beyond(job.survey.bounds);
+      outcome = analysis(points, std::nullopt);
     }
-    if (!contours.unproven.empty()) {
-      write_queries(folder / fmt::format("{}.queries", tile), contours.unproven);
-      stage.unproven[tile] = contours.unproven.size();
+    if (!outcome.unproven.empty()) {
+      write_queries(folder / fmt::format("{}.queries", tile), outcome.unproven);
+      stage.unproven[tile] = outcome.unproven.size();
     }
-    isolated += contours.isolated;
-    results.append(std::move(contours.records));
+    isolated += outcome.isolated;
     release_free_memory();
     tile_progress.done(planned.core_points);
   };
 
-  BackgroundTasks workers(plan.memory.tile_workers);
+  BackgroundTasks workers(job.memory.tile_workers);
   const auto closed = [&](std::size_t tile) {
     if (workers.failed()) workers.wait();  // Rethrows.
     workers.run([&, tile] { analyse(tile); });
   };
   const tiling::PartitionResult partition = tiling::partition_points(
-      inputs, plan.survey, plan.tiles, {folder, plan.memory.spool_buffer_bytes}, closed, progress, cancel);
-  tile_progress.start(plan.survey.points());
+      inputs, job.survey, job.tiles, {folder, job.memory.spool_buffer_bytes}, closed, progress, cancel);
+  tile_progress.start(job.survey.points());
   workers.wait();
   stage.isolated = isolated;
   stage.spooled_bytes = partition.spooled_bytes;

@@ -1,16 +1,13 @@
 #pragma once
 /// @file Partition and per-tile work: tiles are built and analysed while later points are still being routed.
 
-#include <atomic>
 #include <filesystem>
-#include <functional>
-#include <mutex>
 #include <vector>
 
+#include "core/cancel.h"
 #include "core/memory_budget.h"
-#include "features/contour/contour_method.h"
-#include "merge/result_spool.h"
-#include "pipeline/job_plan.h"
+#include "io/point_source.h"
+#include "pipeline/tile_job.h"
 #include "tiling/tile_store.h"
 
 namespace arris::pipeline {
@@ -22,15 +19,12 @@ struct TileStageResult {
   std::uint64_t spooled_bytes = 0;
 };
 
-/// What is done with a tile's points; called from several threads at once.
-using TileAnalysis = std::function<TileContours(const TilePoints& points)>;
-
 /// Concurrency: the caller's thread routes points and enqueues closed tiles; `tile_workers` threads build, load and
 /// analyse them, each holding a reservation of its predicted bytes. Spools of waiting tiles are on disk, so the queue
 /// costs no memory.
-TileStageResult run_tile_stage(io::InputSet& inputs, const JobPlan& plan, const TileAnalysis& analysis,
+TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const TileAnalysis& analysis,
                                const std::filesystem::path& folder, tiling::TileStore& store, MemoryBudget& budget,
-                               merge::ResultSpool& results, ProgressSink& progress, const CancelToken& cancel);
+                               ProgressSink& progress, const CancelToken& cancel);
 
 void write_queries(const std::filesystem::path& path, const std::vector<UnprovenQuery>& queries);
 std::vector<UnprovenQuery> read_queries(const std::filesystem::path& path);

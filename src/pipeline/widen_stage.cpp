@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "core/process_memory.h"
 #include "core/text.h"
-#include "features/contour/contour_method.h"
 #include "pipeline/tile_stage.h"
 #include "tiling/query_regions.h"
 
@@ -25,8 +24,8 @@ constexpr std::size_t kGroupQueries = 8192;
 
 class Widener {
  public:
-  Widener(const JobPlan& plan, const tiling::TileStore& store, merge::ResultSpool& results, WidenResult& outcome)
-      : plan_(plan), store_(store), results_(results), outcome_(outcome) {}
+  Widener(const TileJob& job, const TileAnalysis& analysis, const tiling::TileStore& store, WidenResult& outcome)
+      : job_(job), analysis_(analysis), store_(store), outcome_(outcome) {}
 
   void answer(std::span<const UnprovenQuery> queries) {
     std::optional<TilePoints> points = collect(queries);
@@ -48,11 +47,10 @@ class Widener {
     }
     std::vector<std::uint32_t> indices;
     for (const UnprovenQuery& query : queries) indices.push_back(index_of.at(query.id));
-    TileContours contours = extract_contours(*points, plan_.survey.lattice, plan_.method, indices);
-    if (!contours.unproven.empty())
+    const TileOutcome answered = analysis_(*points, indices);
+    if (!answered.unproven.empty())
       throw IoError("internal: a query stayed unproven on complete support; please report this");
-    outcome_.isolated += contours.isolated;
-    results_.append(std::move(contours.records));
+    outcome_.isolated += answered.isolated;
   }
 
  private:
@@ -62,12 +60,12 @@ class Widener {
     for (const UnprovenQuery& query : queries) regions.add(query.position, query.reach_steps);
     std::vector<LatticePoint> positions;
     std::vector<std::uint64_t> ids;
-    for (std::size_t tile = 0; tile < plan_.tiles.tiles.size(); ++tile) {
-      if (!regions.touches(plan_.tiles.tiles[tile].core)) continue;
+    for (std::size_t tile = 0; tile < job_.tiles.tiles.size(); ++tile) {
+      if (!regions.touches(job_.tiles.tiles[tile].core)) continue;
       store_.load_core(
           tile, [&](const LatticePoint& p) { return regions.contains(p); }, positions, ids);
-      if (positions.size() > plan_.memory.max_tile_points && queries.size() > 1) return std::nullopt;
-      if (tile_bytes(positions.size()) > plan_.memory.tiles_bytes) return std::nullopt;
+      if (positions.size() > job_.memory.max_tile_points && queries.size() > 1) return std::nullopt;
+      if (job_.memory.tile_bytes(positions.size()) > job_.memory.tiles_bytes) return std::nullopt;
     }
     TilePoints points;
     tiling::fold_duplicates(std::move(positions), std::move(ids), points);
@@ -78,22 +76,22 @@ class Widener {
     return points;
   }
 
-  const JobPlan& plan_;
+  const TileJob& job_;
+  const TileAnalysis& analysis_;
   const tiling::TileStore& store_;
-  merge::ResultSpool& results_;
   WidenResult& outcome_;
 };
 
 }  // namespace
 
-WidenResult run_widen_stage(const JobPlan& plan, const std::vector<std::uint64_t>& unproven,
-                            const std::filesystem::path& folder, const tiling::TileStore& store,
-                            merge::ResultSpool& results, ProgressSink& progress, const CancelToken& cancel) {
+WidenResult run_widen_stage(const TileJob& job, const std::vector<std::uint64_t>& unproven,
+                            const TileAnalysis& analysis, const std::filesystem::path& folder,
+                            const tiling::TileStore& store, ProgressSink& progress, const CancelToken& cancel) {
   WidenResult outcome;
   outcome.queries = std::accumulate(unproven.begin(), unproven.end(), std::uint64_t{0});
   if (outcome.queries == 0) return outcome;
   progress.phase("widen", outcome.queries);
-  Widener widener(plan, store, results, outcome);
+  Widener widener(job, analysis, store, outcome);
   std::vector<UnprovenQuery> group;
   const auto answer_group = [&] {
     cancel.check();

@@ -3,9 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
-#include "merge/result_spool.h"
-#include "pipeline/job_plan.h"
+#include "core/cancel.h"
+#include "pipeline/tile_job.h"
 #include "tiling/tile_store.h"
 
 namespace arris::pipeline {
@@ -18,8 +19,8 @@ struct WidenResult {
 /// For groups of unproven queries, in the order of tiles: collects the points of all tiles that lie in reach of any of
 /// them, and asks again. What is collected is bounded by the largest tile the budget allows; groups that need more are
 /// halved. Sequential over groups, parallel inside.
-WidenResult run_widen_stage(const JobPlan& plan, const std::vector<std::uint64_t>& unproven,
-                            const std::filesystem::path& folder, const tiling::TileStore& store,
-                            merge::ResultSpool& results, ProgressSink& progress, const CancelToken& cancel);
+WidenResult run_widen_stage(const TileJob& job, const std::vector<std::uint64_t>& unproven,
+                            const TileAnalysis& analysis, const std::filesystem::path& folder,
+                            const tiling::TileStore& store, ProgressSink& progress, const CancelToken& cancel);
 
 }  // namespace arris::pipeline

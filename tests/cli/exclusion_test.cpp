@@ -67,12 +67,84 @@ TEST_P(Exclusion, ExcludedPoints_TakeNoPartButAreWritten) {
   EXPECT_GT(changed, 10U) << "the wall matters when it is not excluded";
 }
 
-INSTANTIATE_TEST_SUITE_P(Flags, Exclusion,
-                         ::testing::Values(Excluded{"withheld", '\x80', {"--exclude", "withheld"}},
-                                           Excluded{"synthetic", '\x20', {"--exclude", "overlap,synthetic"}},
-                                           Excluded{"overlap", '\x0c', {"--exclude", "overlap"}},
-                                           Excluded{"noise", '\x07', {"--exclude-class", "7,18"}}),
-                         [](const auto& excluded) { return std::string(excluded.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Flags, Exclusion,
+    ::testing::Values(Excluded{"withheld", '\x80', {"--exclude", "withheld"}},
+                      Excluded{"synthetic", '\x20', {"--exclude", "overlap,synthetic"}},
+                      Excluded{"overlap", '\x0c', {"--exclude", "overlap"}},
+                      Excluded{"noise", '\x07', {"--exclude-class", "7,18"}},
+                      Excluded{"only", '\x07', {"--only-class", "0,6"}},
+                      Excluded{"only_without", '\x07', {"--only-class", "0,7", "--exclude-class", "7"}}),
+    [](const auto& excluded) { return std::string(excluded.param.name); });
+
+class OnlyClass : public ::testing::Test {
+ protected:
+  OnlyClass() {
+    write_las(folder_ / "plate.las", square_with_wall(true), 0.01);
+    mark(folder_ / "plate.las", 1600, '\x07');
+    write_ply("plain.ply", "");
+  }
+  /// The points of the plate and the wall, ascii, with a property for their class or without.
+  void write_ply(const char* name, const std::string& property) {
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 2360\nproperty float x\nproperty float y\n"
+        "property float z\n";
+    if (!property.empty()) text += "property uchar " + property + "\n";
+    text += "end_header\n";
+    std::size_t count = 0;
+    for (const auto& p : square_with_wall(true)) {
+      for (const std::int32_t c : p) text += std::to_string(0.01 * c) + " ";
+      text += property.empty() ? "\n" : count < 1600 ? "6\n" : "7\n";
+      ++count;
+    }
+    write_bytes(folder_ / name, text);
+  }
+  ProcessResult run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin() + 1, {"-o", folder_ / "out.las", "--report", folder_ / "run.json"});
+    return run_arris(arguments);
+  }
+  TempFolder folder_;
+};
+
+TEST_F(OnlyClass, Ply_IsReadByItsClassification) {
+  for (const char* property : {"classification", "scalar_Classification"}) {
+    write_ply("classified.ply", property);
+    const ProcessResult result = run({"extract", folder_ / "classified.ply", "--only-class", "6", "--overwrite"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(file_bytes(folder_ / "run.json").find("\"excluded\": 760"), std::string::npos) << property;
+    std::filesystem::remove(folder_ / "run.json");
+  }
+}
+
+TEST_F(OnlyClass, PlyWithoutClassification_ExitsWith1AndNamesIt) {
+  for (const char* verb : {"extract", "supervoxel"}) {
+    const ProcessResult result = run({verb, folder_ / "plate.las", folder_ / "plain.ply", "--only-class", "7"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("plain.ply"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("classification"), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out.las"));
+  }
+}
+
+TEST_F(OnlyClass, NoPointOfTheClass_ExitsWith1AndNamesTheClass) {
+  for (const char* verb : {"extract", "supervoxel"}) {
+    const ProcessResult result = run({verb, folder_ / "plate.las", "--only-class", "6,17"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("class 6,17"), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(run_arris({"plan", folder_ / "plate.las", "--only-class", "6"}).exit_code, 1);
+}
+
+TEST_F(OnlyClass, BadOrContradictingClasses_ExitWith2) {
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--only-class", "256"},
+                                                  {"--only-class", "-1"},
+                                                  {"--only-class", "roof"},
+                                                  {"--only-class", "7", "--exclude-class", "7,18"}}) {
+    std::vector<std::string> arguments{"extract", folder_ / "plate.las"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    EXPECT_EQ(run(arguments).exit_code, 2) << options[1];
+  }
+}
 
 }  // namespace
 }  // namespace arris::test

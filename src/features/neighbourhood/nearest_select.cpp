@@ -204,6 +204,7 @@ void select_nearest(const PointTree& tree, const CandidateSet<T>& candidates, co
     found.dy[i] = static_cast<double>(candidates.y[c] - query.y);
     found.dz[i] = static_cast<double>(candidates.z[c] - query.z);
     found.d2[i] = static_cast<double>(scratch.sorted_d2[i + 1]);
+    found.slot[i] = candidates.slot[c];
   }
   for (std::size_t i = found.count; i < simd::padded(found.count); ++i) {
     found.dx[i] = found.dy[i] = found.dz[i] = found.d2[i] = 0.0;

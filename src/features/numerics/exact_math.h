@@ -39,6 +39,35 @@ ARRIS_ALWAYS_INLINE V log_of_positive(const V& x) {
   return exponent * 0.69314718055994530942 + 2.0 * (s + s * z * sum);
 }
 
+/// exp(-x) for x >= 0; relative error below 1e-14, 0 beyond x = 700.
+template <class V>
+ARRIS_ALWAYS_INLINE V exponential_decay(const V& x) {
+  constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to whole numbers.
+  const V zero = x - x;
+  const V cut = x < 700.0 ? x : zero + 700.0;
+  const V shifted = cut * 1.44269504088896340736 + kRound;
+  const V whole = shifted - kRound;
+  // ln 2 in two parts, the first with few enough bits that its multiples are exact.
+  const V r = (cut - whole * 0.693147180369123816490) - whole * 1.90821492927058770002e-10;  // In [-0.35, 0.35].
+  V sum = zero + 1.0 / 479001600.0;  // Terms of exp(-r) up to r^12.
+  sum = 1.0 / 39916800.0 - sum * r;
+  sum = 1.0 / 3628800.0 - sum * r;
+  sum = 1.0 / 362880.0 - sum * r;
+  sum = 1.0 / 40320.0 - sum * r;
+  sum = 1.0 / 5040.0 - sum * r;
+  sum = 1.0 / 720.0 - sum * r;
+  sum = 1.0 / 120.0 - sum * r;
+  sum = 1.0 / 24.0 - sum * r;
+  sum = 1.0 / 6.0 - sum * r;
+  sum = 0.5 - sum * r;
+  sum = 1.0 - sum * r;
+  sum = 1.0 - sum * r;
+  // 2^-whole, from the whole number in the low bits of `shifted`; at least 2^-1010, a normal number.
+  const auto raw = simd::bits(shifted) - simd::bits(zero + kRound);
+  const V power = simd::from_bits((1023 - raw) << 52);
+  return x < 700.0 ? sum * power : zero;
+}
+
 /// Angle of (x, y) in (-pi, pi]; 0 for (0, 0). Error below 4e-16.
 inline double angle_of(double y, double x) {
   const double ax = std::fabs(x);

@@ -1,6 +1,7 @@
 #pragma once
 /// @file The plane of a segment, as the stages after region growing see it.
 
+#include "core/lattice.h"
 #include "features/numerics/symmetric_eigen3.h"
 
 namespace arris {
@@ -13,5 +14,11 @@ struct SegmentPlane {
   double rms = 0.0;               ///< Root of the mean squared distance of the segment's points to the plane.
   double spacing = 0.0;           ///< Side of the square that one point has for itself, > 0.
 };
+
+/// Above 0 on the side that the normal points to, steps.
+inline double signed_distance(const SegmentPlane& plane, const LatticePoint& p) {
+  return plane.normal[0] * (p.x - plane.centroid[0]) + plane.normal[1] * (p.y - plane.centroid[1]) +
+         plane.normal[2] * (p.z - plane.centroid[2]);
+}
 
 }  // namespace arris

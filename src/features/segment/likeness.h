@@ -1,0 +1,41 @@
+#pragma once
+/// @file Whether two neighbours may be in one segment.
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+
+#include "features/segment/segment_parameters.h"
+#include "features/segment/tile_neighbourhoods.h"
+
+namespace arris {
+
+/// Symmetric: alike(a, b) == alike(b, a), bit for bit.
+class Likeness {
+ public:
+  /// @param intensities  per slot, or empty.
+  Likeness(const TileNeighbourhoods& points, std::span<const std::uint8_t> intensities,
+           const SegmentParameters& parameters);
+
+  /// |n . n'|. Both must have a normal.
+  double alignment(std::uint32_t a, std::uint32_t b) const {
+    const PointShape& p = points_.shape(a);
+    const PointShape& q = points_.shape(b);
+    return std::fabs(double{p.nx} * q.nx + double{p.ny} * q.ny + double{p.nz} * q.nz);
+  }
+  bool alike(std::uint32_t a, std::uint32_t b) const {
+    return alignment(a, b) > least_alignment_ && same_material(a, b);
+  }
+  bool same_material(std::uint32_t a, std::uint32_t b) const {
+    return intensities_.empty() || std::abs(int{intensities_[a]} - int{intensities_[b]}) < step_;
+  }
+
+ private:
+  const TileNeighbourhoods& points_;
+  std::span<const std::uint8_t> intensities_;
+  double least_alignment_;
+  int step_;
+};
+
+}  // namespace arris

@@ -1,0 +1,252 @@
+#include "features/segment/tile_growth.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "core/disjoint_sets.h"
+#include "core/parallel.h"
+#include "features/neighbourhood/point_tree.h"
+#include "features/segment/likeness.h"
+#include "features/segment/tile_neighbourhoods.h"
+
+namespace arris {
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+
+/// Works out one tile. Points go by their slots in the tree.
+class Grower {
+ public:
+  Grower(const TilePoints& tile, std::span<const std::uint8_t> intensities, const Lattice& lattice,
+         const SegmentParameters& parameters, std::optional<std::span<const std::uint32_t>> queries)
+      : parameters_(parameters),
+        tree_(tile.positions, tile.ids),
+        points_(tree_, tile.covered, lattice, parameters),
+        is_query_(tree_.size()),
+        intensities_(slot_intensities(intensities)),
+        likeness_(points_, intensities_, parameters) {
+    choose_queries(tile, queries);
+  }
+
+  TileGrowth run() {
+    compute_rings();
+    settle_unproven();
+    choose_growing();
+    find_links();
+    number_components();
+    write_frontier();
+    return std::move(growth_);
+  }
+
+ private:
+  /// Some neighbours are needed, not all: those of queries. Two more rings around them, or one.
+  int rings() const { return parameters_.published ? 1 : 2; }
+
+  std::vector<std::uint8_t> slot_intensities(std::span<const std::uint8_t> of_entry) const {
+    std::vector<std::uint8_t> of_slot(parameters_.intensity ? of_entry.size() : 0);
+    for (std::size_t slot = 0; slot < of_slot.size(); ++slot) of_slot[slot] = of_entry[tree_.entry(slot)];
+    return of_slot;
+  }
+
+  void choose_queries(const TilePoints& tile, std::optional<std::span<const std::uint32_t>> queries) {
+    std::vector<std::uint8_t> listed;
+    if (queries) {
+      listed.resize(tree_.size());
+      for (const std::uint32_t entry : *queries) listed[entry] = 1;
+    }
+    for (std::size_t slot = 0; slot < tree_.size(); ++slot)
+      is_query_[slot] = queries ? listed[tree_.entry(slot)] : tile.core.contains(tree_.position(slot));
+  }
+
+  template <class Use>
+  void for_each_query(Use&& use) const {
+    for (std::uint32_t slot = 0; slot < tree_.size(); ++slot)
+      if (is_query_[slot]) use(slot);
+  }
+
+  void compute_rings() {
+    std::vector<std::uint8_t> wanted = is_query_;
+    points_.compute(wanted);
+    for (int ring = 0; ring < rings(); ++ring) {
+      std::vector<std::uint8_t> next = wanted;
+      bool more = false;
+      for (std::uint32_t slot = 0; slot < tree_.size(); ++slot) {
+        if (!wanted[slot]) continue;
+        for (const std::uint32_t neighbour : points_.neighbours(slot)) {
+          more |= points_.state(neighbour) == ShapeState::kUnasked;
+          next[neighbour] = 1;
+        }
+      }
+      wanted = std::move(next);
+      if (more) points_.compute(wanted);
+    }
+  }
+
+  bool unproven_within(std::uint32_t slot, int depth) const {
+    if (points_.state(slot) == ShapeState::kUnproven) return true;
+    if (depth == 0) return false;
+    for (const std::uint32_t neighbour : points_.neighbours(slot))
+      if (unproven_within(neighbour, depth - 1)) return true;
+    return false;
+  }
+
+  /// Queries whose support is not whole are none from here on.
+  void settle_unproven() {
+    std::vector<std::uint8_t> bad(tree_.size());
+    std::vector<std::uint8_t> any(1);
+    for (std::uint32_t slot = 0; slot < tree_.size() && !any[0]; ++slot)
+      any[0] = points_.state(slot) == ShapeState::kUnproven;
+    if (!any[0]) return;
+    parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t slot = first; slot < last; ++slot)
+        bad[slot] = is_query_[slot] && unproven_within(static_cast<std::uint32_t>(slot), rings());
+    });
+    for (std::uint32_t slot = 0; slot < tree_.size(); ++slot) {
+      if (!bad[slot]) continue;
+      is_query_[slot] = 0;
+      // If its neighbours lie within d, theirs lie within 2 d of them and so within 3 d of it; those of these within
+      // 4 d of them, 7 d of it. (Balls around a neighbour that hold the ball around the point hold enough points.)
+      const double d = points_.reach_of(slot);
+      const double reach = rings() == 1 ? std::min(3.0 * d, 2.0 * max_reach()) : std::min(7.0 * d, 3.0 * max_reach());
+      growth_.unproven.push_back(
+          {tree_.id(slot), tree_.position(slot), static_cast<std::int64_t>(std::ceil(reach * (1.0 + 1e-9))) + 1});
+    }
+    std::sort(growth_.unproven.begin(), growth_.unproven.end(),
+              [](const UnprovenQuery& a, const UnprovenQuery& b) { return a.id < b.id; });
+  }
+  double max_reach() const { return points_.max_reach_steps(); }
+
+  bool agrees(std::uint32_t slot) const {
+    const auto neighbours = points_.neighbours(slot);
+    std::size_t like = 0;
+    for (const std::uint32_t neighbour : neighbours)
+      like += points_.state(neighbour) == ShapeState::kShaped && likeness_.alike(slot, neighbour);
+    return static_cast<double>(like) >= parameters_.agreement * static_cast<double>(neighbours.size());
+  }
+
+  /// Growing is asked of queries and their neighbours only.
+  void choose_growing() {
+    std::vector<std::uint8_t> wanted = is_query_;
+    for_each_query([&](std::uint32_t slot) {
+      for (const std::uint32_t neighbour : points_.neighbours(slot)) wanted[neighbour] = 1;
+    });
+    grows_.resize(tree_.size());
+    parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const auto slot = static_cast<std::uint32_t>(i);
+        if (!wanted[slot] || points_.state(slot) != ShapeState::kShaped) continue;
+        if (!(points_.shape(slot).variation < static_cast<float>(parameters_.curvature))) continue;
+        grows_[slot] = parameters_.published || agrees(slot);
+      }
+    });
+  }
+
+  void find_links() {
+    sets_ = DisjointSets(tree_.size());
+    numbered_.resize(tree_.size());
+    for_each_query([&](std::uint32_t slot) {
+      if (points_.state(slot) != ShapeState::kShaped) {
+        ++growth_.isolated;
+        return;
+      }
+      for (const std::uint32_t neighbour : points_.neighbours(slot)) {
+        if (points_.state(neighbour) != ShapeState::kShaped || !(grows_[slot] || grows_[neighbour])) continue;
+        if (!likeness_.alike(slot, neighbour)) continue;
+        if (grows_[slot] && grows_[neighbour]) {
+          numbered_[slot] = numbered_[neighbour] = 1;
+          sets_.join(slot, neighbour);
+        } else if (parameters_.published) {
+          const auto [joins, via] = grows_[slot] ? std::pair(neighbour, slot) : std::pair(slot, neighbour);
+          numbered_[via] = 1;
+          offers_.push_back({joins, via});
+        }
+      }
+    });
+  }
+
+  void number_components() {
+    component_.resize(tree_.size());
+    for (std::uint32_t slot = 0; slot < tree_.size(); ++slot) {
+      if (!numbered_[slot]) continue;
+      const std::uint32_t root = sets_.find(slot);  // The smallest of the set: numbered first, if it is numbered.
+      if (component_[root] == 0) {
+        growth_.sizes.push_back(0);
+        growth_.discs.push_back(0);
+        component_[root] = static_cast<std::uint32_t>(growth_.sizes.size());
+      }
+      component_[slot] = component_[root];
+      const TileGrowth::Member member{tree_.id(slot), component_[slot]};
+      if (is_query_[slot]) {
+        ++growth_.sizes[component_[slot] - 1];
+        growth_.discs[component_[slot] - 1] += disc_of(slot);
+        growth_.members.push_back(member);
+      } else {
+        growth_.touched.push_back(member);
+      }
+    }
+    for (const auto& [joins, via] : offers_) {
+      growth_.offers.push_back(
+          {tree_.id(joins), tree_.id(via), static_cast<float>(likeness_.alignment(joins, via)), component_[via]});
+    }
+  }
+
+  std::uint64_t disc_of(std::uint32_t slot) const {
+    const auto neighbours = points_.neighbours(slot);
+    if (neighbours.empty()) return 0;
+    const std::uint64_t d2 = squared_distance(tree_.position(slot), tree_.position(neighbours.back()));
+    return std::min<std::uint64_t>(d2 / neighbours.size(), 0xffffffffU);
+  }
+
+  bool inside_component(std::uint32_t slot) const {
+    const std::uint32_t component = component_[slot];
+    if (component == 0 || growth_.sizes[component - 1] < parameters_.least_component()) return false;
+    for (const std::uint32_t neighbour : points_.neighbours(slot))
+      if (component_[neighbour] != component) return false;
+    return true;
+  }
+
+  void write_frontier() {
+    const std::size_t stride = parameters_.most_neighbours();
+    for_each_query([&](std::uint32_t slot) {
+      if (inside_component(slot)) return;
+      const LatticePoint p = tree_.position(slot);
+      auto& words = growth_.frontier;
+      words.insert(words.end(), {static_cast<std::uint32_t>(tree_.id(slot)), static_cast<std::uint32_t>(p.x),
+                                 static_cast<std::uint32_t>(p.y), static_cast<std::uint32_t>(p.z)});
+      const auto neighbours = points_.neighbours(slot);
+      for (const std::uint32_t neighbour : neighbours) words.push_back(static_cast<std::uint32_t>(tree_.id(neighbour)));
+      words.insert(words.end(), stride - neighbours.size(), TileGrowth::kNoId);
+    });
+  }
+
+  const SegmentParameters& parameters_;
+  PointTree tree_;
+  TileNeighbourhoods points_;
+  std::vector<std::uint8_t> is_query_;
+  std::vector<std::uint8_t> intensities_;  ///< Per slot.
+  Likeness likeness_;
+  std::vector<std::uint8_t> grows_;
+  DisjointSets sets_;
+  std::vector<std::uint8_t> numbered_;  ///< Has a link or makes an offer.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> offers_;
+  std::vector<std::uint32_t> component_;
+  TileGrowth growth_;
+};
+
+}  // namespace
+
+TileGrowth grow_tile(const TilePoints& tile, std::span<const std::uint8_t> intensities, const Lattice& lattice,
+                     const SegmentParameters& parameters, std::optional<std::span<const std::uint32_t>> queries) {
+  if (tile.positions.empty()) return {};
+  return Grower(tile, intensities, lattice, parameters, queries).run();
+}
+
+double growth_bytes_per_point(const SegmentParameters& parameters) {
+  // Tree 27, shapes and states 22, flags, sets and components 14, members 16; neighbours, and where all points are
+  // frontier, as many words again.
+  return 27.0 + 22.0 + 14.0 + 16.0 + 16.0 + 8.0 * static_cast<double>(parameters.most_neighbours());
+}
+const double kGrowthBytesPerThread = 3.0 * 1024 * 1024;
+
+}  // namespace arris

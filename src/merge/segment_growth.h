@@ -1,0 +1,52 @@
+#pragma once
+/// @file Joins the components of all tiles to segments of the whole scan.
+
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <vector>
+
+#include "core/disjoint_sets.h"
+#include "core/tile_points.h"
+#include "features/segment/tile_growth.h"
+#include "merge/point_labels.h"
+
+namespace arris::merge {
+
+/// Segments of a scan: numbered 1 .. sizes.size() in the order of their smallest ids.
+struct GrownSegments {
+  PointLabels labels;
+  std::vector<std::uint64_t> discs;  ///< See TileGrowth::discs.
+};
+
+/// Takes the tiles' results in any order; what finish() gives does not depend on it. Memory: 4 bytes per point of the
+/// scan; 16 per component; 16 per link across tiles, 32 per offer.
+class SegmentGrowth {
+ public:
+  /// @param points  ids are in [0, points), points < TileGrowth::kNoId.
+  SegmentGrowth(std::uint64_t points, std::uint32_t min_points);
+
+  /// Uses all of a tile's result but its frontier. Thread-safe.
+  void add(const TileGrowth& tile);
+
+  /// Segments of fewer than min_points different positions are none. Call once, after the last add().
+  GrownSegments finish();
+
+  std::uint64_t components() const { return sizes_.size(); }
+
+ private:
+  void join_touched();
+  void take_offers();
+  void number();
+
+  std::uint32_t min_points_;
+  std::mutex mutex_;
+  PointLabels labels_;  ///< Components, then segments.
+  std::vector<std::uint32_t> sizes_;
+  std::vector<std::uint64_t> discs_;
+  std::vector<TileGrowth::Member> touched_;
+  std::vector<TileGrowth::Offer> offers_;
+  DisjointSets sets_;
+};
+
+}  // namespace arris::merge

@@ -1,0 +1,67 @@
+#include "merge/segment_moments.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arris::merge {
+namespace {
+
+bool is_below(const Vector3& a, const Vector3& b) {
+  for (const int axis : {2, 1, 0}) {
+    if (a[axis] != b[axis]) return a[axis] < b[axis];
+  }
+  return false;
+}
+
+}  // namespace
+
+void SegmentMoments::change(std::uint32_t segment, const LatticePoint& p, int sign) {
+  Sums& s = sums_[segment - 1];
+  if (!s.has_origin) {
+    s.origin = p;
+    s.has_origin = true;
+  }
+  s.points += static_cast<std::uint64_t>(std::int64_t{sign});
+  const Wide x = std::int64_t{p.x} - s.origin.x;
+  const Wide y = std::int64_t{p.y} - s.origin.y;
+  const Wide z = std::int64_t{p.z} - s.origin.z;
+  s.first[0] += sign * x;
+  s.first[1] += sign * y;
+  s.first[2] += sign * z;
+  s.second[0] += sign * x * x;
+  s.second[1] += sign * x * y;
+  s.second[2] += sign * x * z;
+  s.second[3] += sign * y * y;
+  s.second[4] += sign * y * z;
+  s.second[5] += sign * z * z;
+}
+
+SegmentPlane SegmentMoments::plane(std::uint32_t segment) const {
+  const Sums& s = sums_[segment - 1];
+  SegmentPlane plane;
+  if (s.points == 0) return plane;
+  const double n = static_cast<double>(s.points);
+  // The second moments about the mean, n^2 times: differences of integers of 128 bits, where they fit, are exact.
+  std::array<double, 3> mean{};
+  for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] = static_cast<double>(s.first[axis]) / n;
+  const auto moment = [&](std::size_t i, std::size_t a, std::size_t b) {
+    return static_cast<double>(s.second[i]) / n - mean[a] * mean[b];
+  };
+  const SymmetricMatrix<double> covariance{moment(0, 0, 0), moment(1, 0, 1), moment(2, 0, 2),
+                                           moment(3, 1, 1), moment(4, 1, 2), moment(5, 2, 2)};
+  const PrincipalFrame frame = principal_frame(covariance);
+  const Vector3 opposite{-frame.e3[0], -frame.e3[1], -frame.e3[2]};
+  plane.normal = is_below(frame.e3, opposite) ? opposite : frame.e3;
+  plane.centroid = {s.origin.x + mean[0], s.origin.y + mean[1], s.origin.z + mean[2]};
+  plane.rms = std::sqrt(std::max(frame.values.smallest, 0.0));
+  return plane;
+}
+
+void SegmentMoments::renumber(const std::vector<std::uint32_t>& new_number, std::uint32_t new_count) {
+  std::vector<Sums> kept(new_count);
+  for (std::size_t old = 0; old < sums_.size(); ++old)
+    if (new_number[old] != 0) kept[new_number[old] - 1] = sums_[old];
+  sums_ = std::move(kept);
+}
+
+}  // namespace arris::merge

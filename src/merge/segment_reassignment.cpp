@@ -1,0 +1,154 @@
+#include "merge/segment_reassignment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/parallel.h"
+#include "merge/segment_sides.h"
+
+namespace arris::merge {
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+
+struct Change {
+  std::uint32_t id = 0;
+  std::uint32_t segment = 0;
+  LatticePoint position;
+};
+
+/// Decides for one point after the other; read only.
+class Judge {
+ public:
+  Judge(const ReassignmentSetup& setup, const PointLabels& labels, const std::vector<SegmentPlane>& planes,
+        const SegmentSides& sides)
+      : published_(setup.parameters.published), labels_(labels), planes_(planes), sides_(sides), limit_(planes.size()) {
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      const double s = planes[i].spacing;
+      limit_[i] = setup.parameters.reassign_distance > 0.0
+                      ? setup.parameters.reassign_distance / setup.lattice_step
+                      : std::min(std::max(kReassignRms * planes[i].rms, kLeastReassign * s), kMostReassign * s);
+    }
+  }
+
+  /// The segment that the point should have.
+  std::uint32_t decide(const FrontierPoint& point) const {
+    const std::uint32_t own = labels_[point.id];
+    if (own != 0 && published_) return own;
+    std::uint32_t best = own;
+    double at_best = own != 0 ? signed_distance(planes_[own - 1], point.position) : 0.0;
+    for (const std::uint32_t neighbour : point.neighbours) {
+      const std::uint32_t segment = labels_[neighbour];
+      if (segment == 0 || segment == best) continue;
+      const double d = signed_distance(planes_[segment - 1], point.position);
+      if (std::fabs(d) > limit_[segment - 1]) continue;
+      if (best == 0 || is_nearer(segment, d, best, at_best)) {
+        best = segment;
+        at_best = d;
+      }
+    }
+    return best;
+  }
+
+ private:
+  /// Whether a point at signed distances d_a and d_b of two planes belongs to a rather than to b.
+  bool is_nearer(std::uint32_t a, double d_a, std::uint32_t b, double d_b) const {
+    const bool nearer = std::fabs(d_a) < std::fabs(d_b) || (std::fabs(d_a) == std::fabs(d_b) && a < b);
+    if (published_ || std::fabs(d_b) > limit_[b - 1]) return nearer;
+    // Each segment ends where the planes meet. Of the two planes that halve the angle, only the one between the two
+    // segments counts: the distances alone would also cut at the other, across the noise above a ridge.
+    const int side_of_a = sides_.side(a, b), side_of_b = sides_.side(b, a);
+    if (side_of_a == 0 || side_of_b == 0) return nearer;
+    const double beyond_b = side_of_a * d_b, beyond_a = side_of_b * d_a;
+    return beyond_b != beyond_a ? beyond_b > beyond_a : a < b;
+  }
+
+  bool published_;
+  const PointLabels& labels_;
+  const std::vector<SegmentPlane>& planes_;
+  const SegmentSides& sides_;
+  std::vector<double> limit_;  ///< Steps.
+};
+
+/// Looks at the points of every segment that have neighbours in another.
+void learn_sides(const SegmentFrontier& frontier, const PointLabels& labels, SegmentSides& sides) {
+  frontier.for_each_block([&](std::span<const std::uint32_t> words) {
+    for (std::size_t i = 0; i < words.size() / frontier.stride(); ++i) {
+      const FrontierPoint point = frontier.point(words, i);
+      const std::uint32_t own = labels[point.id];
+      if (own == 0) continue;
+      for (std::size_t n = 0; n < point.neighbours.size(); ++n) {
+        const std::uint32_t other = labels[point.neighbours[n]];
+        if (other != 0 && other != own) sides.add(own, other, point.position);
+      }
+    }
+  });
+}
+
+void find_changes(const Judge& judge, const SegmentFrontier& frontier, const PointLabels& labels,
+                  tiling::ScratchFile& changes, const CancelToken& cancel) {
+  std::vector<std::uint32_t> decided;
+  std::vector<Change> block;
+  frontier.for_each_block([&](std::span<const std::uint32_t> words) {
+    cancel.check();
+    decided.resize(words.size() / frontier.stride());
+    parallel_for_chunks(decided.size(), kGrain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) decided[i] = judge.decide(frontier.point(words, i));
+    });
+    block.clear();
+    for (std::size_t i = 0; i < decided.size(); ++i) {
+      const FrontierPoint point = frontier.point(words, i);
+      if (decided[i] != labels[point.id]) block.push_back({point.id, decided[i], point.position});
+    }
+    if (!block.empty()) changes.append(std::as_bytes(std::span(block)));
+  });
+}
+
+class Updater {
+ public:
+  Updater(PointLabels& labels, SegmentMoments& moments) : labels_(labels), moments_(moments) {}
+
+  void apply(std::uint32_t id, std::uint32_t segment, const LatticePoint& position) {
+    std::uint32_t& label = labels_[id];
+    if (label != 0) moments_.remove(label, position);
+    if (segment != 0) moments_.add(segment, position);
+    label = segment;
+  }
+
+ private:
+  PointLabels& labels_;
+  SegmentMoments& moments_;
+};
+
+}  // namespace
+
+std::uint64_t reassign(const ReassignmentSetup& setup, const SegmentFrontier& frontier,
+                       const DuplicatePoints& duplicates, PointLabels& labels, SegmentMoments& moments,
+                       std::vector<SegmentPlane>& planes, const CancelToken& cancel) {
+  tiling::ScratchFile changes(setup.folder / "segment_changes");
+  SegmentSides sides(planes);
+  if (!setup.parameters.published) learn_sides(frontier, labels, sides);
+  find_changes(Judge(setup, labels, planes, sides), frontier, labels, changes, cancel);
+  const std::uint64_t count = changes.size_bytes() / sizeof(Change);
+  Updater updater(labels, moments);
+  std::vector<Change> block;
+  constexpr std::uint64_t kBlock = 64 * 1024;
+  for (std::uint64_t first = 0; first < count; first += kBlock) {
+    block.resize(static_cast<std::size_t>(std::min(kBlock, count - first)));
+    changes.read_at(first * sizeof(Change), std::as_writable_bytes(std::span(block)));
+    for (const Change& change : block) updater.apply(change.id, change.segment, change.position);
+  }
+  if (count == 0) return 0;
+  duplicates.for_each([&](const DuplicatePoint& point) {
+    if (labels[point.id] != labels[point.of]) updater.apply(point.id, labels[point.of], point.position);
+  });
+  for (std::uint32_t segment = 1; segment <= planes.size(); ++segment) {
+    const double spacing = planes[segment - 1].spacing;
+    planes[segment - 1] = moments.plane(segment);
+    planes[segment - 1].spacing = spacing;
+  }
+  return count;
+}
+
+}  // namespace arris::merge

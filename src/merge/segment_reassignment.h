@@ -1,0 +1,38 @@
+#pragma once
+/// @file Points near the borders of segments go to the planes they are nearest to (Yu et al., section 3.3).
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "core/cancel.h"
+#include "features/segment/segment_parameters.h"
+#include "merge/duplicate_points.h"
+#include "merge/point_labels.h"
+#include "merge/segment_frontier.h"
+#include "merge/segment_moments.h"
+
+namespace arris::merge {
+
+/// d_re where the user gives none: within max(3 RMS, kLeastReassign s), but at most kMostReassign s, s being the
+/// segment's spacing. The paper gives no value.
+constexpr double kReassignRms = 3.0;
+constexpr double kLeastReassign = 0.15;
+constexpr double kMostReassign = 0.85;
+
+struct ReassignmentSetup {
+  const SegmentParameters& parameters;
+  double lattice_step = 1.0;
+  std::filesystem::path folder;  ///< For the changes of a sweep.
+};
+
+/// One sweep. Every frontier point looks at the segments of its neighbours (and, not as published, at its own): the
+/// plane at the least distance takes it, if that is at most d_re (ties: the smaller number). As published only points
+/// without a segment do so. All decide by the labels and planes from before the sweep, so no order matters; then
+/// labels, moments and planes are brought up to date.
+/// @param planes  one per segment; spacing set. @return points that changed.
+std::uint64_t reassign(const ReassignmentSetup& setup, const SegmentFrontier& frontier,
+                       const DuplicatePoints& duplicates, PointLabels& labels, SegmentMoments& moments,
+                       std::vector<SegmentPlane>& planes, const CancelToken& cancel);
+
+}  // namespace arris::merge

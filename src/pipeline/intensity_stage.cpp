@@ -1,0 +1,102 @@
+#include "pipeline/intensity_stage.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <memory>
+
+#include "io/attribute_reader.h"
+
+namespace arris::pipeline {
+namespace {
+
+/// LAS inputs are judged together, and PLY inputs.
+std::size_t group(io::Format format) {
+  return format == io::Format::kLas ? 0 : 1;
+}
+
+class IntensityPasses {
+ public:
+  IntensityPasses(io::InputSet& inputs, ProgressSink& progress, const CancelToken& cancel)
+      : inputs_(inputs), progress_(progress), cancel_(cancel) {}
+
+  IntensityTable run() {
+    if (!find_intensities()) return std::move(table_);
+    table_.of_point.resize(inputs_.points());
+    // Most scans have 8 bits: with the bytes written at once they are done.
+    pass("intensity", [&](std::size_t g, const io::PointBatch& batch) {
+      groups_[g].add(values_);
+      store_bytes({}, batch);
+    });
+    const std::array<bool, 2> refine{groups_[0].needs_refining(), groups_[1].needs_refining()};
+    if (refine[0] || refine[1]) {
+      pass("intensity range", [&](std::size_t g, const io::PointBatch&) {
+        if (refine[g]) groups_[g].refine(values_);
+      });
+    }
+    const std::array<IntensityScale, 2> scales{groups_[0].scale(), groups_[1].scale()};
+    if (scales[0].scaled || scales[1].scaled) {
+      pass("intensity scaling", [&](std::size_t g, const io::PointBatch& batch) { store_bytes(scales[g], batch); });
+    }
+    for (std::size_t i = 0; i < table_.files.size(); ++i)
+      table_.files[i].scale = scales[group(inputs_.sources()[i].format)];
+    return std::move(table_);
+  }
+
+ private:
+  static std::unique_ptr<io::AttributeReader> open(const io::SourceInfo& source) {
+    return std::make_unique<io::AttributeReader>(source.path, std::vector<std::string>{"intensity"});
+  }
+
+  /// False if an input with points has none.
+  bool find_intensities() {
+    bool all = true;
+    for (const io::SourceInfo& source : inputs_.sources()) {
+      table_.files.push_back({open(source)->has(0), {}});
+      all = all && (table_.files.back().has || source.points == 0);
+    }
+    return all;
+  }
+
+  /// Calls visit(group, batch) with the intensities of each batch in values_.
+  void pass(const char* name, const std::function<void(std::size_t group, const io::PointBatch& batch)>& visit) {
+    progress_.phase(name, inputs_.points());
+    inputs_.rewind();
+    std::unique_ptr<io::AttributeReader> reader;
+    std::size_t open_index = 0;
+    io::ReadOptions options;
+    options.records = true;
+    options.batch_points = 16 * 1024;  // What is read stays in the cache.
+    io::PointBatch batch;
+    while (inputs_.read(batch, options)) {
+      cancel_.check();
+      const std::size_t index = inputs_.source_index();
+      if (!reader || index != open_index) reader = open(inputs_.sources()[index]);
+      open_index = index;
+      reader->read(batch, 0, values_);
+      visit(group(inputs_.sources()[index].format), batch);
+      progress_.advance(batch.count);
+    }
+  }
+
+  void store_bytes(const IntensityScale& scale, const io::PointBatch& batch) {
+    std::uint8_t* const bytes = table_.of_point.data() + batch.first_id;
+    for (std::size_t i = 0; i < batch.count; ++i) bytes[i] = scale.byte_of(values_[i]);
+  }
+
+  io::InputSet& inputs_;
+  ProgressSink& progress_;
+  const CancelToken& cancel_;
+  IntensityTable table_;
+  std::array<IntensityPercentiles, 2> groups_{IntensityPercentiles(IntensityPercentiles::Values::kWords),
+                                              IntensityPercentiles(IntensityPercentiles::Values::kAny)};
+  std::vector<double> values_;
+};
+
+}  // namespace
+
+IntensityTable read_intensities(io::InputSet& inputs, ProgressSink& progress, const CancelToken& cancel) {
+  return IntensityPasses(inputs, progress, cancel).run();
+}
+
+}  // namespace arris::pipeline

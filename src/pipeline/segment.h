@@ -1,0 +1,41 @@
+#pragma once
+/// @file The job of `arris segment`: every point of a scan gets the id of the planar segment it lies in.
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/cancel.h"
+#include "core/progress.h"
+#include "features/segment/segment_parameters.h"
+#include "pipeline/run_report.h"
+#include "pipeline/run_request.h"
+
+namespace arris::pipeline {
+
+struct SegmentRequest : RunRequest {
+  SegmentParameters parameters;  ///< max_radius 0: resolved from the survey.
+};
+
+struct SegmentReport : RunReport {
+  SegmentParameters parameters;  ///< As used.
+  std::uint64_t segments = 0;
+  std::uint64_t labelled = 0;    ///< Points in a segment.
+  std::uint64_t isolated = 0;    ///< Points without a normal.
+  std::uint64_t reassigned = 0;  ///< Changes of all sweeps.
+  std::uint64_t frontier = 0;    ///< Points near borders of segments, or in none.
+  std::uint64_t widened_queries = 0;
+  std::uint64_t tiles = 0;
+  std::uint64_t largest_tile_points = 0;
+  int tile_workers = 1;
+};
+
+/// Survey, tiles, growth in each tile, segments of the whole scan, their planes, reassignment, then the inputs again
+/// with the column SegmentId (0: none). All points are written. The bytes of the outputs depend on the input points and
+/// the parameters only. Outputs appear whole or not at all; temporary files are gone when this returns or throws.
+/// Memory beyond the tiles: 4 bytes per point of the scan. Throws the errors of core/error.h.
+SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, const CancelToken& cancel);
+
+nlohmann::ordered_json to_json(const SegmentReport& report);
+nlohmann::ordered_json segment_json(const SegmentParameters& parameters);
+
+}  // namespace arris::pipeline

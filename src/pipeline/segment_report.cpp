@@ -1,0 +1,40 @@
+#include <nlohmann/json.hpp>
+
+#include "pipeline/segment.h"
+
+namespace arris::pipeline {
+
+nlohmann::ordered_json segment_json(const SegmentParameters& p) {
+  nlohmann::ordered_json json;
+  if (p.radius > 0.0) {
+    json["radius"] = p.radius;
+  } else {
+    json["neighbours"] = p.neighbours;
+  }
+  json["max_radius"] = p.max_radius;
+  json["inlier_distance"] = p.inlier_distance;
+  json["angle_deg"] = p.angle_deg;
+  json["intensity"] = p.intensity;
+  json["intensity_step"] = p.intensity_step;
+  json["curvature"] = p.curvature;
+  json["agreement"] = p.agreement;
+  json["min_points"] = p.min_points;
+  json["sweeps"] = p.sweep_count();
+  json["reassign_distance"] = p.reassign_distance;
+  json["as_published"] = p.published;
+  return json;
+}
+
+nlohmann::ordered_json to_json(const SegmentReport& r) {
+  nlohmann::ordered_json json = report_head(r, "arris-segment-report/1");
+  json["parameters"] = segment_json(r.parameters);
+  json["points"] = {{"in", r.points_in},          {"out", r.points_out},         {"dropped", dropped_json(r)},
+                    {"labelled", r.labelled},     {"isolated", r.isolated},      {"frontier", r.frontier},
+                    {"reassigned", r.reassigned}, {"widened", r.widened_queries}};
+  json["segments"] = r.segments;
+  json["tiles"] = {{"count", r.tiles}, {"largest_points", r.largest_tile_points}, {"workers", r.tile_workers}};
+  append_report_tail(json, r);
+  return json;
+}
+
+}  // namespace arris::pipeline

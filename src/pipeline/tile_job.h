@@ -1,0 +1,52 @@
+#pragma once
+/// @file The part of a plan that every job over tiles of points has: survey, memory, tiles, disk.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/tile_points.h"
+#include "features/contour/tile_contours.h"
+#include "pipeline/memory_plan.h"
+#include "pipeline/run_request.h"
+#include "tiling/survey.h"
+#include "tiling/tile_plan.h"
+
+namespace arris::pipeline {
+
+struct TileJob {
+  tiling::Survey survey;
+  MemoryRequest memory_request;
+  MemoryPlan memory;  ///< plan_memory(memory_request).
+  tiling::TilePlan tiles;
+  std::uint64_t predicted_peak_bytes = 0;
+  std::uint64_t predicted_temp_bytes = 0;
+};
+
+/// What a method asks of the tiles it works on.
+struct TileNeeds {
+  std::function<double(double spacing)> halo;  ///< See tiling::PlanRequest.
+  double max_radius = 0.0;
+  bool whole_halo = false;
+  double result_bytes_per_point = 8.0;   ///< On disk.
+  std::uint64_t further_temp_bytes = 0;  ///< On disk at the same time.
+};
+
+/// Cuts tiles for job.memory, which may lose workers. Throws BudgetError if memory or disk cannot do.
+void plan_tiles_of(TileJob& job, const TileNeeds& needs, const RunRequest& request, ProgressSink& progress);
+
+/// What a method leaves to others of a tile; its results it keeps itself.
+struct TileOutcome {
+  std::vector<UnprovenQuery> unproven;  ///< Ascending ids; they left no trace in the results.
+  std::uint64_t isolated = 0;           ///< Queries with too few neighbours.
+};
+
+/// What is done with points; called from several threads at once. The queries are the entries listed, or, without a
+/// list, the points of points.core.
+using TileAnalysis =
+    std::function<TileOutcome(const TilePoints& points, std::optional<std::span<const std::uint32_t>> queries)>;
+
+}  // namespace arris::pipeline

@@ -1,0 +1,80 @@
+/// @file arris segment.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "core/text.h"
+#include "pipeline/segment.h"
+#include "run_options.h"
+#include "segment_options.h"
+
+namespace arris::tools {
+namespace {
+
+struct SegmentCommand {
+  RunOptions run;
+  SegmentOptions segment;
+  std::vector<std::string> outputs;
+  std::string report;
+  bool overwrite = false;
+  bool mixed_crs = false;
+};
+
+std::string describe_segments(const pipeline::SegmentReport& r, const std::string& memory_why) {
+  double seconds = 0.0;
+  for (const auto& [phase, s] : r.seconds) seconds += s;
+  const std::string neighbours = r.parameters.radius > 0.0
+                                     ? fmt::format("neighbours within {:.4g}", r.parameters.radius)
+                                     : fmt::format("{} neighbours", r.parameters.neighbours);
+  std::string text = fmt::format(
+      "{}, angle {:g} degrees{}; spacing about {:.4g}, lattice step {:g}\n"
+      "memory {} ({}), {} threads; {} tiles of at most {} points\n"
+      "{} points, {} segments with {} points\n"
+      "{:.1f} s, {:.1f} CPU s, peak memory {} of {}",
+      neighbours, r.parameters.angle_deg, r.parameters.published ? ", as published" : "", r.spacing, r.lattice.step,
+      human_bytes(r.memory_budget_bytes), memory_why, r.threads, grouped(r.tiles), grouped(r.largest_tile_points),
+      grouped(r.points_in), grouped(r.segments), grouped(r.labelled), seconds, r.cpu_seconds,
+      human_bytes(r.peak_resident_bytes), human_bytes(r.memory_budget_bytes));
+  for (const std::string& output : r.outputs) text += "\nwrote " + printable(output);
+  return text;
+}
+
+int run_segment(SegmentCommand& o, Session& session) {
+  pipeline::SegmentRequest request;
+  fill_run_request(o.run, request);
+  request.outputs.assign(o.outputs.begin(), o.outputs.end());
+  request.overwrite = o.overwrite;
+  request.mixed_crs = o.mixed_crs;
+  request.hash_inputs = !o.report.empty();
+  request.parameters = to_parameters(o.segment);
+  ProgressDisplay display(o.run.display.mode(), o.run.display.verbosity());
+  const pipeline::SegmentReport report = pipeline::segment(request, display, session.cancel);
+  display.finish();
+  display.note(describe_segments(report, o.run.memory_why));
+  if (!o.report.empty()) write_text(o.report, to_json(report).dump(2) + "\n", o.overwrite);
+  return 0;
+}
+
+}  // namespace
+
+void add_segment(CLI::App& app, Session& session) {
+  auto options = std::make_shared<SegmentCommand>();
+  CLI::App* verb =
+      app.add_subcommand("segment", "Planar segments of roofs and facades: every point gets the id of its own");
+  add_run_options(*verb, options->run);
+  verb->add_option("-o,--output", options->outputs, "Output, .las or .ply; may be given several times")
+      ->required()
+      ->take_all();
+  verb->add_option("--report", options->report, "Write what was done as JSON");
+  verb->add_flag("--overwrite", options->overwrite, "Replace existing outputs");
+  verb->add_flag("--mixed-crs", options->mixed_crs,
+                 "Allow inputs with different coordinate reference systems in one output");
+  add_segment_options(*verb, options->segment);
+  verb->callback([options, &session] { session.run = [options, &session] { return run_segment(*options, session); }; });
+}
+
+}  // namespace arris::tools
