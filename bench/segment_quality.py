@@ -27,11 +27,15 @@ NOISE = "0.03"
 # Points per m², and the spacing that gives them.
 DENSITIES = {"8": 0.354, "2.19": 0.676}
 ROOFS = ["gable", "hip", "crossgable", "mansard", "dormer", "dome", "parapet"]
-CASES = [(roof, [roof, "--set", "tree=1"]) for roof in ROOFS] + [
-    ("gable, 2 materials", ["gable", "--set", "tree=1", "--set", "materials=2", "--set", "intensity_noise=0.05"]),
+SEEN_FROM_ABOVE = {"parapet": ["--set", "walls=0"]}
+TWO_MATERIALS = ["--set", "materials=2"]
+CASES = [(roof, [roof, "--set", "tree=1", *SEEN_FROM_ABOVE.get(roof, [])]) for roof in ROOFS] + [
     ("roofs", ["roofs"]),
     ("roofs, ground", ["roofs", "--set", "ground=1"]),
-    ("roofs, 2 materials", ["roofs", "--set", "materials=2", "--set", "intensity_noise=0.05"]),
+    ("roofs, walls and ground", ["roofs", "--set", "ground=1", "--set", "walls=1"]),
+    ("roofs, two materials", ["roofs", *TWO_MATERIALS]),
+    ("roofs, two materials, intensities ± 5 %", ["roofs", *TWO_MATERIALS, "--set", "intensity_noise=0.05"]),
+    ("gable, two materials", ["gable", "--set", "tree=1", *TWO_MATERIALS]),
 ]
 GRID = {
     "k": [8, 12, 16, 20, 30],

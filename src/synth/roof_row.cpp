@@ -10,7 +10,7 @@ namespace arris::synth {
 namespace {
 
 constexpr double kPitchX = 27.0, kPitchY = 25.0, kGroundAround = 8.0;
-constexpr double kParapetFoot = 3.0;  // Below its roof.
+constexpr double kParapetFoot = 3.0;  // Below its roof, if it has walls.
 const Material kMeadow{0.4, kGroundClass, 0x7000, 0x7c00, 0x5000};
 
 struct Plot {
@@ -37,7 +37,7 @@ Box3 roof_bounds(const SceneModel& roof) {
   return box;
 }
 
-/// Ground where no roof hides it from above. The parapet's walls stand on it.
+/// Ground where no roof hides it from above. Walls stand on it.
 void add_ground(SceneModel& model, const std::vector<Box3>& roofs) {
   const Box3 all = model.bounds();
   const Vec3 low{all.min.x - kGroundAround, all.min.y - kGroundAround, 0};
@@ -49,7 +49,7 @@ void add_ground(SceneModel& model, const std::vector<Box3>& roofs) {
     if (roof.min.z > 0.0) model.loop(EdgeKind::kBoundary, "shadow", ring(roof));
   }
   for (TruthEdge& edge : model.edges) {
-    if (edge.role != "foot") continue;
+    if (edge.role != "foot" && edge.role != "footing") continue;
     edge.kind = EdgeKind::kConcave;
     edge.angle_deg = 90.0;
   }
@@ -65,12 +65,13 @@ SceneModel build_roofs(const OptionValues& options, double spacing) {
     OptionValues own = resolve_options(scene, {});
     const bool house = own.count("eave") > 0;
     if (house) own["eave"] = options.at("eave");
+    if (own.count("walls") > 0) own["walls"] = options.at("walls");
     for (const SceneOption& option : airborne_options()) own[option.name] = options.at(option.name);
     SceneModel roof = scene.build(own, spacing);
-    const bool parapet = roof_bounds(roof).min.z < 0.0;
-    const double lift = house ? 0.0 : parapet ? kParapetFoot : options.at("eave");
+    const Box3 box = roof_bounds(roof);
+    const bool on_its_walls = box.min.z < 0.0;
+    const double lift = house ? 0.0 : on_its_walls ? kParapetFoot : options.at("eave");
     const Vec3 place{kPitchX * plot.column, kPitchY * plot.row, lift};
-    Box3 box = roof_bounds(roof);
     roofs.push_back({box.min + place, box.max + place});
     for (Face& face : roof.faces) {
       if (face.material.classification != kTreeClass) face.material.classification = kBuildingClass;

@@ -25,6 +25,7 @@ std::vector<SceneOption> house_options() {
 std::vector<SceneOption> roofs_options() {
   std::vector<SceneOption> options =
       with_airborne_options({{"eave", 5.0, 3.0, 100.0, "height of the eaves over the ground, m"},
+                             {"walls", 0.0, 0.0, 1.0, "1: with the walls of gable, hip and parapet"},
                              {"ground", 0.0, 0.0, 1.0, "1: with the ground between the roofs"}});
   for (SceneOption& option : options) option.quiet = false;
   for (SceneOption& option : options) {
@@ -81,7 +82,8 @@ std::vector<SceneInfo> make_catalog() {
        with_airborne_options({{"length", 14.0, 1.0, 1000.0, "m"},
                               {"width", 10.0, 1.0, 1000.0, "m"},
                               {"height", 0.9, 0.01, 10.0, "of the parapet over the roof, m"},
-                              {"thickness", 0.4, 0.01, 0.49, "of the parapet, m"}}),
+                              {"thickness", 0.4, 0.01, 0.49, "of the parapet, m"},
+                              {"walls", 1.0, 0.0, 1.0, "0: without any walls, as seen from the air", true}}),
        build_parapet},
       {"roofs", "all seven roofs above beside each other, with trees: what an airborne scanner sees of a settlement",
        0.35, roofs_options(), build_roofs},

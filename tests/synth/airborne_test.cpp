@@ -146,7 +146,9 @@ TEST(Roofs_Scene, HoldsEveryRoofWithItsSurfaces) {
   std::size_t surfaces = 0, edges = 0;
   for (const std::string& roof : kRoofs) {
     std::set<std::uint32_t> labels;
-    const Scene scene(airborne(roof, {}));
+    const bool walls = roof == "parapet" || roof == "gable" || roof == "hip";
+    const Scene scene(
+        airborne(roof, walls ? std::map<std::string, double>{{"walls", 0}} : std::map<std::string, double>{}));
     for (const auto& p : all_points(scene)) labels.insert(p.label);
     surfaces += labels.size();
     edges += scene.edges().size();
@@ -163,6 +165,27 @@ TEST(Roofs_Scene, HoldsEveryRoofWithItsSurfaces) {
   EXPECT_EQ(roofs.edges().size(), edges);
   EXPECT_EQ(classes.size(), 2U);
   EXPECT_GT(classes[kTreeClass], 1000U);
+}
+
+TEST(Roofs_Walls, StandOnTheGround) {
+  const Scene scene(airborne("roofs", {{"walls", 1}, {"ground", 1}, {"tree", 0}}));
+  for (const auto& p : all_points(scene)) ASSERT_GE(p.z, 0.0);
+  std::size_t feet = 0;
+  for (const TruthEdge& edge : scene.edges()) {
+    if (edge.role != "foot" && edge.role != "footing") continue;
+    ++feet;
+    EXPECT_EQ(edge.kind, EdgeKind::kConcave);
+    EXPECT_EQ(edge.a.z, 0.0);
+  }
+  EXPECT_EQ(feet, 12U);
+}
+
+TEST(Parapet_WithoutWalls, IsALevelRingOverAFloor) {
+  std::set<double> heights;
+  const Scene scene(airborne("parapet", {{"walls", 0}}));
+  for (const auto& p : all_points(scene)) heights.insert(p.z);
+  EXPECT_EQ(heights, (std::set<double>{0.0, 0.9}));
+  for (const TruthEdge& edge : scene.edges()) EXPECT_EQ(edge.kind, EdgeKind::kBoundary);
 }
 
 TEST(Roofs_Ground, IsOneSurfaceBelowTheRoofs) {
