@@ -19,7 +19,9 @@ void add_segment_options(CLI::App& verb, SegmentOptions& o) {
   length("--radius", o.radius, "All points this near are neighbours, 64 at most, instead of the nearest (length)");
   length("--max-radius", o.max_radius, "Neighbours are never farther (length; default: 120 spacings)");
   number("--angle", p.angle_deg, "Normals of neighbours in one segment differ by less, degrees");
-  number("--intensity-step", p.intensity_step, "Their intensities, brought to 0 to 255, differ by less");
+  verb.add_option("--intensity-step", p.intensity_step,
+                  "Their intensities, brought to 0 to 255, differ by less (default 20, as published 10)")
+      ->group(group);
   number("--curvature", p.curvature, "Segments grow from points with a smaller surface variation");
   number("--agreement", p.agreement, "Segments grow from points that this share of the neighbours is like; 0 to 1");
   number("--min-points", p.min_points, "Smaller segments are none");

@@ -35,7 +35,7 @@ class Judge {
   /// The segment that the point should have.
   std::uint32_t decide(const FrontierPoint& point) const {
     const std::uint32_t own = labels_[point.id];
-    if (own != 0 && published_) return own;
+    if (own != 0 && (published_ || planes_[own - 1].rms > kMostPlanarRms * planes_[own - 1].spacing)) return own;
     std::uint32_t best = own;
     double at_best = own != 0 ? signed_distance(planes_[own - 1], point.position) : 0.0;
     for (const std::uint32_t neighbour : point.neighbours) {

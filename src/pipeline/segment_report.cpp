@@ -15,7 +15,7 @@ nlohmann::ordered_json segment_json(const SegmentParameters& p) {
   json["inlier_distance"] = p.inlier_distance;
   json["angle_deg"] = p.angle_deg;
   json["intensity"] = p.intensity;
-  json["intensity_step"] = p.intensity_step;
+  json["intensity_step"] = p.least_intensity_step();
   json["curvature"] = p.curvature;
   json["agreement"] = p.agreement;
   json["min_points"] = p.min_points;

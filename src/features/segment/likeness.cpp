@@ -19,6 +19,6 @@ Likeness::Likeness(const TileNeighbourhoods& points, std::span<const std::uint8_
     : points_(points),
       intensities_(intensities),
       least_alignment_(cosine(parameters.angle_deg / kDegreesPerRadian)),
-      step_(parameters.intensity_step) {}
+      step_(parameters.least_intensity_step()) {}
 
 }  // namespace arris

@@ -18,6 +18,8 @@ class Likeness {
   Likeness(const TileNeighbourhoods& points, std::span<const std::uint8_t> intensities,
            const SegmentParameters& parameters);
 
+  void use_intensities(std::span<const std::uint8_t> of_slot) { intensities_ = of_slot; }
+
   /// |n . n'|. Both must have a normal.
   double alignment(std::uint32_t a, std::uint32_t b) const {
     const PointShape& p = points_.shape(a);

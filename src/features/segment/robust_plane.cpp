@@ -8,6 +8,8 @@ namespace {
 
 using detail::LanePlane;
 
+/// Rounds of weights that are not as published.
+constexpr int kWeightRounds = 3;
 /// Standard deviation of a normal distribution over its median absolute deviation, times 2.5 of them.
 constexpr double kMedianToLimit = 2.5 * 1.4826;
 
@@ -84,8 +86,8 @@ struct MedianPlanes {
 
 struct WeightedPlanes {
   template <int Bytes>
-  static ARRIS_ALWAYS_INLINE void run(const NeighbourhoodBatch& batch, const MedianStarts& starts, double fixed_limit,
-                                      PlaneBatch& planes) {
+  static ARRIS_ALWAYS_INLINE void run(const NeighbourhoodBatch& batch, const MedianStarts& starts,
+                                      const PlaneWeights& settings, PlaneBatch& planes) {
     using V = typename simd::Wide<Bytes>::Double;
     for (std::size_t lane = 0; lane < kBatchLanes; lane += Bytes / sizeof(double)) {
       const auto start = [&](const NeighbourhoodBatch::Row& row) { return simd::load<V>(row.data() + lane); };
@@ -101,13 +103,17 @@ struct WeightedPlanes {
       const V mu = start(batch.mean_distance);
       const V inverse_mu2 = 1.0 / (mu * mu);
       const V by_median = kMedianToLimit * start(starts.median), least = kInlierShare * mu;
-      const V limit = fixed_limit > 0.0 ? zero + fixed_limit : by_median > least ? by_median : least;
-      for (int round = 0; round < kWeightRounds; ++round) {
+      const V limit = settings.inlier_steps > 0.0 ? zero + settings.inlier_steps
+                      : by_median > least         ? by_median
+                                                  : least;
+      const V decay = settings.published ? inverse_mu2 : 1.0 / (limit * limit);
+      const double lead = settings.published ? 0.0 : 1.0;
+      for (int round = 0; round < (settings.published ? 1 : kWeightRounds); ++round) {
         const LanePlane<V> before = plane;
         const auto weight_at = [&](const V& x, const V& y, const V& z) {
           const V d = before.distance(x, y, z);
           const V d2 = d * d;
-          return d2 > limit * limit ? exponential_decay<V>(d2 * inverse_mu2) : zero + 1.0;
+          return d2 > limit * limit ? exponential_decay<V>(d2 * decay - lead) : zero + 1.0;
         };
         V weights[kMostNeighbours];
         for (std::size_t i = 0; i < batch.neighbours; ++i)
@@ -126,10 +132,11 @@ void fit_plain_planes(const NeighbourhoodBatch& batch, PlaneBatch& planes) {
   simd::dispatch<PlainPlanes>(batch, planes);
 }
 
-void fit_robust_planes(const NeighbourhoodBatch& batch, const MedianPlan& plan, double d_max, PlaneBatch& planes) {
+void fit_robust_planes(const NeighbourhoodBatch& batch, const MedianPlan& plan, const PlaneWeights& weights,
+                       PlaneBatch& planes) {
   MedianStarts starts;
   simd::dispatch<MedianPlanes>(batch, plan, starts);
-  simd::dispatch<WeightedPlanes>(batch, starts, d_max, planes);
+  simd::dispatch<WeightedPlanes>(batch, starts, weights, planes);
 }
 
 }  // namespace arris

@@ -36,7 +36,7 @@ void validate(const SegmentParameters& p) {
   require(is_length(p.max_radius), "--max-radius", p.max_radius, "finite and not negative");
   require(is_length(p.inlier_distance), "--inlier-distance", p.inlier_distance, "finite and not negative");
   require(p.angle_deg > 0.0 && p.angle_deg < 90.0, "--angle", p.angle_deg, "between 0 and 90 degrees");
-  require(p.intensity_step >= 1, "--intensity-step", p.intensity_step, "at least 1");
+  require(p.least_intensity_step() >= 1, "--intensity-step", p.least_intensity_step(), "at least 1");
   require(p.curvature > 0.0 && p.curvature <= 1.0, "--curvature", p.curvature, "above 0, at most 1");
   require(p.min_points >= 1, "--min-points", p.min_points, "at least 1");
   require(p.agreement >= 0.0 && p.agreement <= 1.0, "--agreement", p.agreement, "between 0 and 1");

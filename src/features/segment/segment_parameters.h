@@ -13,9 +13,11 @@ struct SegmentParameters {
   /// > 0: the neighbours are all points this near, but no more than kMostNeighbours, instead of the k nearest.
   double radius = 0.0;
   double max_radius = 0.0;  ///< R_max: no neighbour is farther, > 0 when the method runs (resolved by the pipeline).
-  double inlier_distance = 0.0;   ///< d_max of the robust plane; 0: from the residuals (robust_plane.h).
-  double angle_deg = 7.2;         ///< 0.04 pi: normals of neighbours in one segment differ by less, (0, 90).
-  int intensity_step = 10;        ///< Intensities (0 to 255) of neighbours in one segment differ by less; >= 1.
+  double inlier_distance = 0.0;  ///< d_max of the robust plane; 0: from the residuals (robust_plane.h).
+  double angle_deg = 7.2;        ///< 0.04 pi: normals of neighbours in one segment differ by less, (0, 90).
+  /// Intensities (0 to 255) of neighbours in one segment differ by less, >= 1; without: 10 as published, where they are
+  /// those of the points, else 20, where they are medians of each point's surroundings.
+  std::optional<int> intensity_step;
   bool intensity = true;          ///< Compare intensities, where the points have them.
   double curvature = 0.2;         ///< Segments grow from points with a smaller sigma_p, (0, 1/3 and a little].
   std::uint32_t min_points = 20;  ///< Smaller segments are none, >= 1.
@@ -32,6 +34,7 @@ struct SegmentParameters {
   /// Searches stop here: radius if given, else R_max.
   double reach() const { return radius > 0.0 && radius < max_radius ? radius : max_radius; }
   std::size_t most_neighbours() const;
+  int least_intensity_step() const { return intensity_step.value_or(published ? 10 : 20); }
   int sweep_count() const { return sweeps.value_or(published ? 2 : 4); }
   /// Smaller components are dropped before the reassignment. Not as published segments then gain the points that they
   /// could not grow to, so fewer do, and min_points is asked afterwards.

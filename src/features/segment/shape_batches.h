@@ -18,8 +18,7 @@ constexpr double kLeastWidth = 1e-6;
 /// Not thread-safe.
 class ShapeBatches {
  public:
-  /// @param inlier_steps  d_max in steps; 0: from the residuals.
-  explicit ShapeBatches(double inlier_steps) : inlier_steps_(inlier_steps) {}
+  explicit ShapeBatches(const PlaneWeights& weights) : weights_(weights) {}
 
   /// Calls use(slot, shape, has normal) once for every slot, now or later, at the latest in flush().
   /// @param found  3 to kMostNeighbours neighbours.
@@ -82,7 +81,8 @@ class ShapeBatches {
     NeighbourhoodBatch& from = size.plain.batch;
     fit_plain_planes(from, planes_);
     for (std::size_t lane = 0; lane < from.lanes; ++lane) {
-      const double limit = inlier_steps_ > 0.0 ? inlier_steps_ / from.mean_distance[lane] : kInlierShare;
+      const double limit =
+          weights_.inlier_steps > 0.0 ? weights_.inlier_steps / from.mean_distance[lane] : kInlierShare;
       if (planes_.farthest[lane] <= limit) {
         put(planes_, lane, size.plain.slot[lane], use);
         continue;
@@ -104,12 +104,12 @@ class ShapeBatches {
   template <class Use>
   void fit_robust(Size& size, Use& use) {
     PlaneBatch planes;
-    fit_robust_planes(size.robust.batch, size.plan, inlier_steps_, planes);
+    fit_robust_planes(size.robust.batch, size.plan, weights_, planes);
     for (std::size_t lane = 0; lane < size.robust.batch.lanes; ++lane) put(planes, lane, size.robust.slot[lane], use);
     size.robust.batch.lanes = 0;
   }
 
-  double inlier_steps_;
+  PlaneWeights weights_;
   PlaneBatch planes_;
   std::array<std::unique_ptr<Size>, kMostNeighbours + 1> sizes_;
 };

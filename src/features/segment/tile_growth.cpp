@@ -32,6 +32,7 @@ class Grower {
   TileGrowth run() {
     compute_rings();
     settle_unproven();
+    if (!parameters_.published && !intensities_.empty()) smooth_intensities();
     choose_growing();
     find_links();
     number_components();
@@ -116,6 +117,25 @@ class Grower {
               [](const UnprovenQuery& a, const UnprovenQuery& b) { return a.id < b.id; });
   }
   double max_reach() const { return points_.max_reach_steps(); }
+
+  /// Every point gets the median of its surroundings: noise goes, the borders of materials stay where they are.
+  void smooth_intensities() {
+    std::vector<std::uint8_t> smooth = intensities_;
+    parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+      std::vector<std::uint8_t> values;
+      for (std::size_t i = first; i < last; ++i) {
+        const auto slot = static_cast<std::uint32_t>(i);
+        if (points_.state(slot) != ShapeState::kShaped) continue;
+        values.assign(1, intensities_[slot]);
+        for (const std::uint32_t neighbour : points_.neighbours(slot)) values.push_back(intensities_[neighbour]);
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        smooth[slot] = *middle;
+      }
+    });
+    intensities_.swap(smooth);
+    likeness_.use_intensities(intensities_);
+  }
 
   bool agrees(std::uint32_t slot) const {
     const auto neighbours = points_.neighbours(slot);

@@ -21,7 +21,7 @@ class TileNeighbourhoods::Runner {
       : all_(all),
         search_(all.tree_, {all.stride_, all.reach_steps_,
                             static_cast<std::uint64_t>(all.reach_steps_ * all.reach_steps_), Arithmetic::kFloat}),
-        batches_(all.inlier_steps_) {}
+        batches_(all.weights_) {}
 
   void run(std::span<const std::uint32_t> slots) {
     search_.run(slots, [&](std::uint32_t slot, const Neighbours& found) { take(slot, found); });
@@ -62,7 +62,7 @@ TileNeighbourhoods::TileNeighbourhoods(const PointTree& tree, const LatticeBox& 
       parameters_(parameters),
       stride_(parameters.most_neighbours()),
       reach_steps_(parameters.reach() / lattice.step),
-      inlier_steps_(parameters.inlier_distance / lattice.step),
+      weights_{parameters.inlier_distance / lattice.step, parameters.published},
       slots_(tree.size() * stride_),
       counts_(tree.size()),
       shapes_(tree.size()),

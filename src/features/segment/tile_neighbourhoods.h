@@ -7,6 +7,7 @@
 
 #include "core/lattice.h"
 #include "features/neighbourhood/point_tree.h"
+#include "features/segment/robust_plane.h"
 #include "features/segment/segment_parameters.h"
 
 namespace arris {
@@ -53,7 +54,7 @@ class TileNeighbourhoods {
   const SegmentParameters& parameters_;
   std::size_t stride_;
   double reach_steps_;
-  double inlier_steps_;
+  PlaneWeights weights_;
   std::vector<std::uint32_t> slots_;
   std::vector<std::uint8_t> counts_;
   std::vector<PointShape> shapes_;
