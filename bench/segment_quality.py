@@ -7,15 +7,14 @@
     bench/segment_quality.py --peer none             # arris alone; --peer only: PCL alone
     bench/segment_quality.py --arris=--angle=10      # with options of arris segment
 
-Every row is the mean of the seeds. arris runs with its defaults. PCL runs with every combination of GRID; its row is the
-one with the best mean F of completeness and correctness of that very scene and density, chosen with a look at the
-truth: "PCL with its best parameters". Judge: arris evaluate --labels (docs/cookbook.md, Planes); completeness,
+Every row is the mean of the seeds. arris runs with its defaults. PCL runs with every setting of the grid in
+pcl_segment_search.cpp; its row is of the one with the best mean F of completeness and correctness of that very scene
+and density, chosen with a look at the truth: "PCL with its best parameters" (neighbours, angle, curvature, least
+points). Judge: arris evaluate --labels (docs/cookbook.md, Planes); completeness,
 correctness and IoU are means over the planes of 10 m² or more, "found" and "right" are counts of the same.
 """
 
 import argparse
-import concurrent.futures
-import itertools
 import json
 import os
 import sys
@@ -37,18 +36,14 @@ CASES = [(roof, [roof, "--set", "tree=1", *SEEN_FROM_ABOVE.get(roof, [])]) for r
     ("roofs, two materials, intensities ± 5 %", ["roofs", *TWO_MATERIALS, "--set", "intensity_noise=0.05"]),
     ("gable, two materials", ["gable", "--set", "tree=1", *TWO_MATERIALS]),
 ]
-GRID = {
-    "k": [8, 12, 16, 20, 30],
-    "angle": [3, 5, 7.5, 10, 15],
-    "curvature": [0.02, 0.05, 0.1, 0.2],
-    "min": [10, 20],
-}
+MIN_AREA = "10"
 
 
 class Bench:
     def __init__(self, options, work):
         self.arris = os.path.join(options.build, "bin", "arris")
         self.peer = os.path.join(options.build, "bin", "bench_pcl_segment")
+        self.search = os.path.join(options.build, "bin", "bench_pcl_segment_search")
         self.work = work
         self.sampling = options.sampling
         self.seeds = options.seeds
@@ -65,7 +60,7 @@ class Bench:
 
     def judge(self, scan, result, spacing):
         text, _ = run([self.arris, "evaluate", result, "--labels", scan, "--segments", "SegmentId", "--spacing",
-                       repr(spacing), "--json"])
+                       repr(spacing), "--min-area", MIN_AREA, "--json"])
         return figures_of(json.loads(text))
 
     def run_arris(self, scan, spacing):
@@ -74,9 +69,15 @@ class Bench:
         return self.judge(scan, out, spacing)
 
     def run_peer(self, scan, spacing, settings):
-        with tempfile.NamedTemporaryFile(suffix=".las", dir=self.work) as out:
-            run([self.peer, scan, *(str(value) for value in settings), out.name])
-            return self.judge(scan, out.name, spacing)
+        out = os.path.join(self.work, "pcl.las")
+        run([self.peer, scan, *settings, out])
+        return self.judge(scan, out, spacing)
+
+    def best_settings(self, scans, spacing):
+        """K, ANGLE, CURVATURE and MIN of the peer with the best mean F."""
+        text, _ = run([self.search, repr(spacing), MIN_AREA, *scans])
+        lines = [row.split() for row in text.splitlines()]
+        return max(lines, key=lambda row: float(row[-1]))[:-1]
 
 
 def figures_of(judged):
@@ -99,15 +100,6 @@ def figures_of(judged):
 def mean(runs, name):
     values = [r[name] for r in runs if r[name] is not None]
     return sum(values) / len(values) if values else None
-
-
-def best_peer(bench, pool, scans, spacing):
-    """Settings and runs (one per scan) with the best mean F."""
-    grid = list(itertools.product(*GRID.values()))
-    jobs = [[pool.submit(bench.run_peer, scan, spacing, settings) for scan in scans] for settings in grid]
-    runs = [[job.result() for job in row] for row in jobs]
-    best = max(range(len(grid)), key=lambda i: mean(runs[i], "f"))
-    return grid[best], runs[best]
 
 
 COLUMNS = ["scene", "points per m²", "method", "planes found", "segments right", "completeness", "correctness", "F",
@@ -138,7 +130,6 @@ def main():
     parser.add_argument("--seeds", type=int, nargs="+", default=[21, 22, 23], help="of the scenes")
     parser.add_argument("--peer", choices=["best", "none", "only"], default="best", help="PCL too, not, or alone")
     parser.add_argument("--arris", action="append", default=[], help="option of arris segment, as --arris=--angle=10")
-    parser.add_argument("--jobs", type=int, default=1, help="programs that run at the same time")
     parser.add_argument("--json", help="write all figures of all runs, planes one by one")
     options = parser.parse_args()
 
@@ -149,7 +140,7 @@ def main():
         print(line(cells(name, density, method, runs)), flush=True)
         results.append({"scene": name, "density": density, "method": method, "runs": runs, **more})
 
-    with tempfile.TemporaryDirectory() as temporary, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+    with tempfile.TemporaryDirectory() as temporary:
         bench = Bench(options, options.work or temporary)
         os.makedirs(bench.work, exist_ok=True)
         for density in options.density or DENSITIES:
@@ -161,8 +152,9 @@ def main():
                 if options.peer != "only":
                     report(name, density, "arris", [bench.run_arris(scan, spacing) for scan in scans])
                 if options.peer != "none":
-                    settings, runs = best_peer(bench, pool, scans, spacing)
+                    settings = bench.best_settings(scans, spacing)
                     k, angle, curvature, least = settings
+                    runs = [bench.run_peer(scan, spacing, settings) for scan in scans]
                     report(name, density, f"PCL {k}, {angle}°, {curvature}, {least}", runs, settings=settings)
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
