@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "pipeline/segment.h"
 #include "run_options.h"
+#include "segment_filter_options.h"
 #include "segment_options.h"
 
 namespace arris::tools {
@@ -18,6 +19,7 @@ namespace {
 struct SegmentCommand {
   RunOptions run;
   SegmentOptions segment;
+  SegmentFilterOptions filter;
   std::vector<std::string> outputs;
   std::string report;
   bool overwrite = false;
@@ -51,6 +53,8 @@ int run_segment(SegmentCommand& o, Session& session) {
   request.mixed_crs = o.mixed_crs;
   request.hash_inputs = !o.report.empty();
   request.parameters = to_parameters(o.segment);
+  request.parameters.intensity = !o.filter.no_intensity;
+  if (o.filter.by_height()) request.min_height = o.filter.min_height_units();
   ProgressDisplay display(o.run.display.mode(), o.run.display.verbosity());
   const pipeline::SegmentReport report = pipeline::segment(request, display, session.cancel);
   display.finish();
@@ -74,6 +78,7 @@ void add_segment(CLI::App& app, Session& session) {
   verb->add_flag("--mixed-crs", options->mixed_crs,
                  "Allow inputs with different coordinate reference systems in one output");
   add_segment_options(*verb, options->segment);
+  add_segment_filter_options(*verb, options->filter, "Points that take part");
   verb->callback([options, &session] { session.run = [options, &session] { return run_segment(*options, session); }; });
 }
 

@@ -8,8 +8,8 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/process_memory.h"
+#include "pipeline/ground_stage.h"
 #include "pipeline/growth_stage.h"
-#include "pipeline/intensity_stage.h"
 #include "pipeline/job_plan.h"
 #include "pipeline/point_selection.h"
 #include "pipeline/run_folder.h"
@@ -51,6 +51,7 @@ IntensityTable use_intensities(io::InputSet& inputs, SegmentParameters& paramete
   if (!parameters.intensity) return {};
   IntensityTable table = read_intensities(inputs, progress, cancel);
   if (!table.complete() && inputs.points() > 0) {
+    table.files.clear();
     parameters.intensity = false;
     progress.warning("no-intensity", "not all inputs have intensities; segments are told apart by their shape alone");
   }
@@ -76,7 +77,17 @@ SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, con
   problems.forward();
   Writers writers =
       open_writers(request, inputs, {{"SegmentId", ColumnType::kUint32, "planar segment, 0 none"}}, true, report);
+  // Before the exclusions, which neither the scale of intensities nor the ground must depend on.
+  const IntensityTable intensities = use_intensities(inputs, report.parameters, sink, cancel);
+  report.intensities = intensities.files;
+  if (report.parameters.intensity) watch.lap("intensity");
   inputs.exclude(request.exclusion);
+  if (request.min_height) {
+    report.min_height = request.min_height;
+    inputs.add_filter(above_ground(std::make_shared<const GroundModel>(read_ground(inputs, sink, cancel)),
+                                   *request.min_height, inputs.sources()));
+    watch.lap("ground");
+  }
 
   tiling::Survey survey = tiling::survey_inputs(inputs, {request.lattice_step}, sink, cancel);
   problems.forward();
@@ -87,8 +98,6 @@ SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, con
     report.parameters.max_radius = resolve_max_radius(survey, 0.0, report.parameters.radius);
   watch.lap("survey");
 
-  const IntensityTable intensities = use_intensities(inputs, report.parameters, sink, cancel);
-  if (report.parameters.intensity) watch.lap("intensity");
   const RunFolder folder(request.temp_dir);
   const TileJob job = plan_job(std::move(survey), request, report.parameters, kept_bytes(inputs.points()), sink);
   report.tiles = job.tiles.tiles.size();

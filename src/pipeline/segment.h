@@ -3,10 +3,13 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <vector>
 
 #include "core/cancel.h"
 #include "core/progress.h"
 #include "features/segment/segment_parameters.h"
+#include "pipeline/intensity_stage.h"
 #include "pipeline/run_report.h"
 #include "pipeline/run_request.h"
 
@@ -14,10 +17,14 @@ namespace arris::pipeline {
 
 struct SegmentRequest : RunRequest {
   SegmentParameters parameters;  ///< max_radius 0: resolved from the survey.
+  /// Points lower above the ground (points of class 2) take no part, data units; without: all do.
+  std::optional<double> min_height;
 };
 
 struct SegmentReport : RunReport {
   SegmentParameters parameters;  ///< As used.
+  std::optional<double> min_height;
+  std::vector<IntensityRange> intensities;  ///< Per input; empty if they played no part.
   std::uint64_t segments = 0;
   std::uint64_t labelled = 0;    ///< Points in a segment.
   std::uint64_t isolated = 0;    ///< Points without a normal.

@@ -28,6 +28,12 @@ nlohmann::ordered_json segment_json(const SegmentParameters& p) {
 nlohmann::ordered_json to_json(const SegmentReport& r) {
   nlohmann::ordered_json json = report_head(r, "arris-segment-report/1");
   json["parameters"] = segment_json(r.parameters);
+  json["min_height"] = r.min_height ? nlohmann::ordered_json(*r.min_height) : nlohmann::ordered_json();
+  json["intensities"] = nlohmann::ordered_json::array();
+  for (const IntensityRange& range : r.intensities) {
+    json["intensities"].push_back(
+        {{"scaled", range.scale.scaled}, {"low", range.scale.low}, {"high", range.scale.high}});
+  }
   json["points"] = {{"in", r.points_in},          {"out", r.points_out},         {"dropped", dropped_json(r)},
                     {"labelled", r.labelled},     {"isolated", r.isolated},      {"frontier", r.frontier},
                     {"reassigned", r.reassigned}, {"widened", r.widened_queries}};
