@@ -7,22 +7,19 @@
 #include <pcl/console/print.h>
 #include <pcl/point_types.h>
 #include <pcl/segmentation/supervoxel_clustering.h>
-#include <sys/resource.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
 #include "io/input_file.h"
-#include "io/point_writer.h"
 #include "io/record_reader.h"
+#include "label_output.h"
+#include "stage_clock.h"
 
 namespace {
 
@@ -32,36 +29,6 @@ using Cloud = pcl::PointCloud<Point>;
 /// Where the origin that PCL sees lies, from the scan's offset: PCL turns normals towards it, so it must not lie in the
 /// plane of a face, as the corner of a scene does.
 constexpr double kOrigin[3] = {-1.1, -2.3, -3.7};
-
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-}
-
-double peak_mib() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
-/// Prints what a stage took when the next one begins.
-class StageClock {
- public:
-  void end_stage(const char* name) {
-    const double cpu = cpu_seconds();
-    const auto now = std::chrono::steady_clock::now();
-    const double wall = std::chrono::duration<double>(now - wall_).count();
-    std::printf("%-10s CPU s %.2f, wall s %.2f, peak resident MiB %.0f\n", name, cpu - cpu_, wall, peak_mib());
-    cpu_ = cpu;
-    wall_ = now;
-  }
-
- private:
-  double cpu_ = cpu_seconds();
-  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-};
 
 /// 16-bit colours of LAS, or those of PLY as they are, as PCL's bytes.
 class ColourReader {
@@ -118,26 +85,8 @@ Cloud::Ptr read_cloud(const std::string& path, bool& colours) {
   return cloud;
 }
 
-void write_labels(const std::string& scan, const std::string& path, const pcl::PointCloud<pcl::PointXYZL>& labels) {
-  arris::io::InputSet inputs({scan});
-  const auto writer = arris::io::create_kept_point_writer(
-      path, inputs, {{"SupervoxelId", arris::ColumnType::kUint32, "supervoxel; 0: none"}},
-      {.overwrite = true, .every_point = true});
-  arris::io::ReadOptions options;
-  options.records = true;
-  std::vector<std::uint32_t> kept, rows;
-  for (arris::io::PointBatch batch; inputs.read(batch, options);) {
-    kept.resize(batch.count);
-    std::iota(kept.begin(), kept.end(), 0U);
-    rows.resize(batch.count);
-    for (std::size_t i = 0; i < batch.count; ++i) rows[i] = labels[batch.first_id + i].label;
-    writer->append(inputs.source_index(), batch, kept, std::as_bytes(std::span(rows)));
-  }
-  writer->commit();
-}
-
 int run(const std::string& scan, float voxel, float seed, const std::string& out, int refinements) {
-  StageClock clock;
+  arris::bench::StageClock clock;
   bool colours = false;
   const Cloud::Ptr cloud = read_cloud(scan, colours);
   clock.end_stage("read");
@@ -157,7 +106,10 @@ int run(const std::string& scan, float voxel, float seed, const std::string& out
   const auto labels = clustering.getLabeledCloud();
   clock.end_stage("label");
   if (!out.empty()) {
-    write_labels(scan, out, *labels);
+    std::vector<std::uint32_t> numbers;
+    numbers.reserve(labels->size());
+    for (const pcl::PointXYZL& point : *labels) numbers.push_back(point.label);
+    arris::bench::write_labels(scan, out, {"SupervoxelId", arris::ColumnType::kUint32, "supervoxel; 0: none"}, numbers);
     clock.end_stage("write");
   }
   std::printf("points %zu, supervoxels %zu, colour %s\n", cloud->size(), supervoxels.size(), colours ? "yes" : "no");

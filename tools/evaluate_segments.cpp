@@ -37,6 +37,7 @@ class LabelStream {
     options_.records = true;
   }
 
+  const std::string& name() const { return name_; }
   std::uint64_t points() const { return source_->info().points; }
   /// A coordinate of the file is known to about so much.
   double step(std::size_t axis) const { return source_->info().scaled_integers ? source_->info().scale[axis] : 0.0; }
@@ -82,8 +83,13 @@ bool same_place(const evaluate::Vec3& a, const evaluate::Vec3& b, const evaluate
   return same(a.x, b.x, step.x) && same(a.y, b.y, step.y) && same(a.z, b.z, step.z);
 }
 
-std::vector<LabelledPoint> read_points(const std::string& prediction, const SegmentsOptions& o,
-                                       const CancelToken& cancel) {
+/// Labels point by point, and the name of the column that was judged.
+struct Labelled {
+  std::vector<LabelledPoint> points;
+  std::string column;
+};
+
+Labelled read_points(const std::string& prediction, const SegmentsOptions& o, const CancelToken& cancel) {
   LabelStream truth(o.truth, {o.faces}, "--faces");
   LabelStream segments(
       prediction, o.segments.empty() ? std::vector<std::string>{"SupervoxelId", "SegmentId"} : std::vector{o.segments},
@@ -113,7 +119,7 @@ std::vector<LabelledPoint> read_points(const std::string& prediction, const Segm
     }
     point.segment = segment;
   });
-  return points;
+  return {std::move(points), segments.name()};
 }
 
 double estimate_spacing(const std::string& path, const CancelToken& cancel) {
@@ -139,6 +145,16 @@ CLI::Option* add_segments_options(CLI::App& verb, SegmentsOptions& o) {
                   "Size R of the voxels that supervoxels were made with (length): judge their boundaries within R "
                   "sqrt(3) too")
       ->needs(labels);
+  verb.add_flag(
+          "--planes", o.planes,
+          "Judge planes too: which are found, split, joined, how complete and correct they are (column SegmentId: "
+          "always)")
+      ->needs(labels);
+  verb.add_option("--min-area", o.min_area,
+                  "Planes of at least this area have figures of their own (square units; area: points times spacing²)")
+      ->needs(labels)
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   return labels;
 }
 
@@ -147,7 +163,8 @@ int evaluate_segments(const std::string& prediction, const SegmentsOptions& o, c
   evaluate::SegmentationOptions options;
   if (!o.radius.empty()) options.radius = parse_length(o.radius);
   if (!o.voxel.empty()) options.voxel = parse_length(o.voxel);
-  const std::vector<LabelledPoint> points = read_points(prediction, o, session.cancel);
+  const auto [points, column] = read_points(prediction, o, session.cancel);
+  if (o.planes || column == "SegmentId") options.min_plane_area = o.min_area;
   options.spacing = spacing.empty() ? estimate_spacing(o.truth, session.cancel) : parse_length(spacing);
   const evaluate::SegmentationComparison result = evaluate::compare_segmentation(points, options);
   write_text("-",

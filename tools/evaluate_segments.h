@@ -17,6 +17,8 @@ struct SegmentsOptions {
   std::string segments;          ///< Column of the prediction; empty: SupervoxelId or SegmentId.
   std::string faces = "FaceId";  ///< Column of the truth.
   std::string radius, voxel;     ///< Lengths; empty: not given.
+  bool planes = false;           ///< Judge planes too; columns SegmentId are judged so anyway.
+  double min_area = 10.0;        ///< Of planes that count as large.
 };
 
 /// Declares the options and returns --labels, which asks for this judgement.

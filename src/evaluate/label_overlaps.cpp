@@ -44,13 +44,12 @@ struct SegmentSums {
   }
 };
 
-}  // namespace
-
-std::vector<LabelOverlap> count_overlaps(std::span<const LabelledPoint> points) {
+template <class Counts>
+std::vector<LabelOverlap> count_where(std::span<const LabelledPoint> points, const Counts& counts) {
   std::vector<std::uint64_t> keys;
   keys.reserve(points.size());
   for (const LabelledPoint& p : points) {
-    if (is_judged(p) && p.segment != 0) keys.push_back(std::uint64_t{p.segment} << 32 | p.face);
+    if (counts(p)) keys.push_back(std::uint64_t{p.segment} << 32 | p.face);
   }
   std::sort(keys.begin(), keys.end());
   std::vector<LabelOverlap> overlaps;
@@ -60,6 +59,16 @@ std::vector<LabelOverlap> count_overlaps(std::span<const LabelledPoint> points) 
     ++overlaps.back().points;
   }
   return overlaps;
+}
+
+}  // namespace
+
+std::vector<LabelOverlap> count_overlaps(std::span<const LabelledPoint> points) {
+  return count_where(points, [](const LabelledPoint& p) { return is_judged(p) && p.segment != 0; });
+}
+
+std::vector<LabelOverlap> count_all_overlaps(std::span<const LabelledPoint> points) {
+  return count_where(points, [](const LabelledPoint& p) { return has_position(p); });
 }
 
 OverlapMeasures measure_overlaps(std::span<const LabelOverlap> overlaps) {

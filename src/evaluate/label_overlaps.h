@@ -22,6 +22,8 @@ struct LabelOverlap {
 
 /// Of the judged points that have a segment; ascending by segment, then face. O(n log n), 8 bytes per point.
 std::vector<LabelOverlap> count_overlaps(std::span<const LabelledPoint> points);
+/// Of all points with finite coordinates: 0 is a label like any other.
+std::vector<LabelOverlap> count_all_overlaps(std::span<const LabelledPoint> points);
 
 struct OverlapMeasures {
   std::uint64_t points = 0;    ///< N.

@@ -14,9 +14,13 @@ struct LabelledPoint {
   std::uint32_t face = 0;     ///< Of the truth; 0: on no surface (a stray point), which nobody can get right.
 };
 
-/// Only these are judged; the others are as if they were not there.
+inline bool has_position(const LabelledPoint& p) {
+  return std::isfinite(p.position.x) && std::isfinite(p.position.y) && std::isfinite(p.position.z);
+}
+
+/// Only these are judged, but for planes (plane_comparison.h); the others are as if they were not there.
 inline bool is_judged(const LabelledPoint& p) {
-  return p.face != 0 && std::isfinite(p.position.x) && std::isfinite(p.position.y) && std::isfinite(p.position.z);
+  return p.face != 0 && has_position(p);
 }
 
 }  // namespace arris::evaluate

@@ -61,6 +61,7 @@ SegmentationComparison compare_segmentation(std::span<const LabelledPoint> point
   result.truth_boundary = truth.size();
   result.segment_boundary = segments.size();
   result.boundaries = compare_boundaries(points, truth, segments, tolerances);
+  if (options.min_plane_area) result.planes = compare_planes(points, {options.spacing, *options.min_plane_area});
   return result;
 }
 

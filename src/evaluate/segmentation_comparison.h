@@ -1,7 +1,8 @@
 #pragma once
 /// @file How well supervoxels or segments of a cloud agree with the true surfaces of its points.
 ///
-/// Points on no surface (face 0) and points without finite coordinates are left out altogether. Points without a
+/// Points on no surface (face 0) and points without finite coordinates are left out altogether, but for planes
+/// (plane_comparison.h), where points on no surface count. Points without a
 /// segment (segment 0) count as such, and for boundaries form a region of their own; the overlaps are of the others. So
 /// a segmentation that leaves much out must be judged by `unsegmented` too.
 
@@ -14,6 +15,7 @@
 #include "evaluate/boundary_recall.h"
 #include "evaluate/label_overlaps.h"
 #include "evaluate/labelled_point.h"
+#include "evaluate/plane_comparison.h"
 
 namespace arris::evaluate {
 
@@ -26,6 +28,7 @@ struct SegmentationOptions {
   double voxel =
       0.0;  ///< Size R of the voxels that supervoxels were made of; 0: unknown. Adds the tolerance R sqrt(3).
   std::vector<double> tolerance_factors{1.0, 2.0, 3.0};  ///< In spacings, each > 0.
+  std::optional<double> min_plane_area{};                ///< Given: planes are judged too, see PlaneOptions.
 };
 
 struct SegmentationComparison {
@@ -40,6 +43,7 @@ struct SegmentationComparison {
   std::uint64_t truth_boundary = 0;          ///< Boundary points of the truth.
   std::uint64_t segment_boundary = 0;
   std::vector<BoundaryAgreement> boundaries;  ///< By ascending tolerance.
+  std::optional<PlaneComparison> planes;      ///< If asked for.
 };
 
 /// O(n log n) for n points; about 40 bytes per point besides the points. Runs in parallel; the result depends neither

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "evaluate/plane_text.h"
 
 namespace arris::evaluate {
 
@@ -71,6 +72,7 @@ std::string to_json(const SegmentationComparison& c) {
                     {"precision", number(row.precision)}});
   }
   result["boundaries"] = rows;
+  if (c.planes) result["planes"] = planes_json(*c.planes);
   return result.dump(2) + "\n";
 }
 
@@ -81,6 +83,12 @@ std::string to_csv(const SegmentationComparison& c) {
   for (const auto& [name, value] : figures(c)) {
     names += fmt::format(",{}", name);
     same += fmt::format(",{}", cell(value));
+  }
+  if (c.planes) {
+    for (const auto& [name, value] : planes_cells(*c.planes)) {
+      names += fmt::format(",{}", name);
+      same += fmt::format(",{}", value);
+    }
   }
   std::string text = names + "\n";
   for (const BoundaryAgreement& row : c.boundaries) {
@@ -116,6 +124,7 @@ std::string to_table(const SegmentationComparison& c) {
     text += fmt::format(kRow, fmt::format("{:.4g}", row.tolerance), fmt::format("{:.3g}", row.tolerance / c.spacing),
                         share_text(row.recall), share_text(row.precision));
   }
+  if (c.planes) text += fmt::format("\n{}", planes_table(*c.planes));
   return text;
 }
 

@@ -111,6 +111,12 @@ bool Face::owns(double u, double v) const {
   return true;
 }
 
+bool Face::fills(double u, double v, double w) const {
+  if (!ellipsoid) return true;
+  const double a = 2.0 * u / size_u - 1.0, b = 2.0 * v / size_v - 1.0, c = 2.0 * w / size_w - 1.0;
+  return a * a + b * b + c * c < 1.0;
+}
+
 double Face::measure() const {
   constexpr double kPi = std::numbers::pi;
   switch (shape) {
@@ -119,7 +125,7 @@ double Face::measure() const {
     case Shape::kSphere:
       return 2.0 * kPi * radius * (radius - std::max(cap_height, -radius));
     case Shape::kVolume:
-      return size_u * size_v * size_w;
+      return size_u * size_v * size_w * (ellipsoid ? kPi / 6.0 : 1.0);
     case Shape::kPlane:
       break;
   }

@@ -35,7 +35,7 @@ struct Material {
 /// kPlane: origin + u eu + v ev for (u, v) in [0, size_u] x [0, size_v], cut to `outline` or `disc` if given, less the
 /// holes; ew is the normal. A disc may be a ring or a sector. kCylinder: lateral surface about the axis ew from origin
 /// to origin + size_v ew, u runs round it from eu. kSphere: centre `origin`, cut to the cap above a height along ew.
-/// kVolume: the box [0, size_u] x [0, size_v] x [0, size_w] from origin, filled.
+/// kVolume: the box [0, size_u] x [0, size_v] x [0, size_w] from origin, or the ellipsoid inscribed in it, filled.
 struct Face {
   enum class Shape : std::uint8_t { kPlane, kCylinder, kSphere, kVolume };
 
@@ -51,7 +51,11 @@ struct Face {
   bool disc = false;                  ///< Plane: the circle inscribed in the (square) rectangle.
   std::vector<Circle2> circle_holes;  ///< Plane: disjoint holes inside the outline.
   std::vector<Rect2> rect_holes;
+  bool ellipsoid = false;  ///< Volume.
+  /// Volume: points per spacing² of a beam along ew through the whole box; 0: one per spacing³.
+  double returns = 0.0;
   Material material;
+  int material_number = 1;  ///< Parts of one plane that differ in it are surfaces of their own.
   /// Number of the surface that it is a part of, from 1; 0 for volumes, and until number_surfaces() has set it.
   std::uint32_t surface = 0;
 
@@ -62,6 +66,8 @@ struct Face {
   bool in_sweep(double u, double v) const;
   /// True if (u, v) of the rectangle belongs to the plane. Outlines and holes are half-open: no seam is owned twice.
   bool owns(double u, double v) const;
+  /// True if the volume holds a place of its box.
+  bool fills(double u, double v, double w) const;
   /// Area, or volume of kVolume. Data units squared, or cubed.
   double measure() const;
   /// Exact distance of a point to the face (to the filled box for kVolume).

@@ -1,6 +1,7 @@
 #include "synth/house.h"
 
 #include "core/error.h"
+#include "synth/airborne.h"
 #include "synth/deterministic_math.h"
 #include "synth/scene_builders.h"
 
@@ -159,9 +160,20 @@ class HouseBuilder {
   bool eaves_are_free_ = false;
 };
 
-SceneModel build_single_house(const OptionValues& options, bool hip) {
+/// Around the house, as far as its walls or its roof without them.
+void add_ground(SceneModel& model, const House& house) {
   constexpr double kGroundAround = 5.0;
   const Material ground{0.4, 2, 0x7000, 0x7c00, 0x5000};
+  const double x = 0.5 * house.length, y = 0.5 * house.width;
+  const double far_x = x + kGroundAround, far_y = y + kGroundAround;
+  model.rectangle({-far_x, -far_y, 0}, {far_x, -far_y, 0}, {-far_x, far_y, 0}, ground).rect_holes = {
+      {{kGroundAround, kGroundAround}, {kGroundAround + house.length, kGroundAround + house.width}}};
+  model.loop(EdgeKind::kBoundary, "ground_border",
+             {{-far_x, -far_y, 0}, {far_x, -far_y, 0}, {far_x, far_y, 0}, {-far_x, far_y, 0}});
+  if (!house.walls) model.loop(EdgeKind::kBoundary, "shadow", {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}});
+}
+
+SceneModel build_single_house(const OptionValues& options, bool hip) {
   House house;
   house.length = options.at("length");
   house.width = options.at("width");
@@ -181,14 +193,8 @@ SceneModel build_single_house(const OptionValues& options, bool hip) {
   }
   SceneModel model;
   add_house(model, house);
-  if (!house.on_ground) return model;
-  const double x = 0.5 * house.length, y = 0.5 * house.width;
-  const double far_x = x + kGroundAround, far_y = y + kGroundAround;
-  model.rectangle({-far_x, -far_y, 0}, {far_x, -far_y, 0}, {-far_x, far_y, 0}, ground).rect_holes = {
-      {{kGroundAround, kGroundAround}, {kGroundAround + house.length, kGroundAround + house.width}}};
-  model.loop(EdgeKind::kBoundary, "ground_border",
-             {{-far_x, -far_y, 0}, {far_x, -far_y, 0}, {far_x, far_y, 0}, {-far_x, far_y, 0}});
-  if (!house.walls) model.loop(EdgeKind::kBoundary, "shadow", {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}});
+  if (house.on_ground) add_ground(model, house);
+  add_airborne(model, options);
   return model;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "synth/airborne.h"
 #include "synth/scene_builders.h"
 
 namespace arris::synth {
@@ -169,6 +170,7 @@ SceneModel build_dome(const OptionValues& options, double /*spacing*/) {
   // Between the roof, outwards, and the cap, along the tangent upwards: its cosine is -cut / radius.
   const double angle_deg = std::acos(-cut / radius) * 180.0 / std::numbers::pi;
   model.circle(EdgeKind::kRimConcave, "dome_foot", {0, 0, 0}, kUp, rim, angle_deg);
+  add_airborne(model, options);
   return model;
 }
 

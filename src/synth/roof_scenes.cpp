@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "synth/airborne.h"
 #include "synth/deterministic_math.h"
 #include "synth/mesh.h"
 #include "synth/scene_builders.h"
@@ -37,6 +38,7 @@ SceneModel build_crossgable(const OptionValues& options, double /*spacing*/) {
   }
   SceneModel model;
   add_mesh(model, mesh, kTiles);
+  add_airborne(model, options);
   return model;
 }
 
@@ -62,6 +64,7 @@ SceneModel build_mansard(const OptionValues& options, double /*spacing*/) {
   }
   SceneModel model;
   add_mesh(model, mesh, kSlate);
+  add_airborne(model, options);
   return model;
 }
 
@@ -121,6 +124,7 @@ SceneModel build_dormer(const OptionValues& options, double /*spacing*/) {
                    {kWallR, kPeak, kTop, kMeetR}};
   SceneModel model;
   add_mesh(model, mesh, kTiles);
+  add_airborne(model, options);
   return model;
 }
 

@@ -141,7 +141,10 @@ evaluate::Truth Scene::truth(TruthOf of) const {
                       {"rotate", request.rotate ? "1" : "0"},
                       {"shift", exact_text(request.shift[0]) + " " + exact_text(request.shift[1]) + " " +
                                     exact_text(request.shift[2])}};
-  for (const auto& [name, value] : impl_->options) truth.properties["option_" + name] = exact_text(value);
+  for (const SceneOption& option : impl_->info.options) {
+    const double value = impl_->options.at(option.name);
+    if (!option.quiet || value != option.value) truth.properties["option_" + option.name] = exact_text(value);
+  }
   if (scanned()) truth.properties["truth_of"] = of == TruthOf::kScan ? "scan" : "model";
   if (!scanned() || of == TruthOf::kModel) {
     truth.edges = impl_->edges;

@@ -19,6 +19,7 @@ SceneModel build_mansard(const OptionValues& options, double spacing);
 SceneModel build_dormer(const OptionValues& options, double spacing);
 SceneModel build_dome(const OptionValues& options, double spacing);
 SceneModel build_parapet(const OptionValues& options, double spacing);
+SceneModel build_roofs(const OptionValues& options, double spacing);
 SceneModel build_columns(const OptionValues& options, double spacing);
 SceneModel build_facade(const OptionValues& options, double spacing);
 SceneModel build_sculpture(const OptionValues& options, double spacing);

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "synth/airborne.h"
 #include "synth/scene_builders.h"
 
 namespace arris::synth {
@@ -11,13 +12,26 @@ namespace arris::synth {
 namespace {
 
 std::vector<SceneOption> house_options() {
-  return {{"length", 12.0, 1.0, 1000.0, "along the ridge, m"},
-          {"width", 8.0, 1.0, 1000.0, "across the ridge, m"},
-          {"eave", 5.0, 0.5, 100.0, "height of the walls, m"},
-          {"pitch", 35.0, 5.0, 80.0, "slope of the roof, degrees"},
-          {"overhang", 0.0, 0.0, 2.0, "of the roof over the walls, m"},
-          {"walls", 0.0, 0.0, 1.0, "1: with walls; 0: the roof alone, as seen from the air"},
-          {"ground", 0.0, 0.0, 1.0, "1: with the ground around the house"}};
+  return with_airborne_options({{"length", 12.0, 1.0, 1000.0, "along the ridge, m"},
+                                {"width", 8.0, 1.0, 1000.0, "across the ridge, m"},
+                                {"eave", 5.0, 0.5, 100.0, "height of the walls, m"},
+                                {"pitch", 35.0, 5.0, 80.0, "slope of the roof, degrees"},
+                                {"overhang", 0.0, 0.0, 2.0, "of the roof over the walls, m"},
+                                {"walls", 0.0, 0.0, 1.0, "1: with walls; 0: the roof alone, as seen from the air"},
+                                {"ground", 0.0, 0.0, 1.0, "1: with the ground around the house"}});
+}
+
+/// Nothing is quiet: the scene is young enough for all of its options to be named in every truth.
+std::vector<SceneOption> roofs_options() {
+  std::vector<SceneOption> options =
+      with_airborne_options({{"eave", 5.0, 3.0, 100.0, "height of the eaves over the ground, m"},
+                             {"walls", 0.0, 0.0, 1.0, "1: with the walls of gable, hip and parapet"},
+                             {"ground", 0.0, 0.0, 1.0, "1: with the ground between the roofs"}});
+  for (SceneOption& option : options) option.quiet = false;
+  for (SceneOption& option : options) {
+    if (option.name == "tree") option.value = 1.0;
+  }
+  return options;
 }
 
 std::vector<SceneInfo> make_catalog() {
@@ -40,46 +54,39 @@ std::vector<SceneInfo> make_catalog() {
        build_stairs},
       {"gable", "roof with two slopes", 0.25, house_options(), build_gable},
       {"hip", "roof with four slopes", 0.25, house_options(), build_hip},
-      {"crossgable",
-       "two roofs of equal height that cross, with four valleys; the roof alone",
-       0.25,
-       {{"length", 16.0, 1.0, 1000.0, "along the main ridge, m"},
-        {"cross_length", 14.0, 1.0, 1000.0, "along the other ridge, m"},
-        {"width", 7.0, 0.5, 500.0, "of both, across their ridges, m"},
-        {"pitch", 38.0, 5.0, 80.0, "degrees"}},
+      {"crossgable", "two roofs of equal height that cross, with four valleys; the roof alone", 0.25,
+       with_airborne_options({{"length", 16.0, 1.0, 1000.0, "along the main ridge, m"},
+                              {"cross_length", 14.0, 1.0, 1000.0, "along the other ridge, m"},
+                              {"width", 7.0, 0.5, 500.0, "of both, across their ridges, m"},
+                              {"pitch", 38.0, 5.0, 80.0, "degrees"}}),
        build_crossgable},
-      {"mansard",
-       "hip roof in two pitches; the roof alone",
-       0.25,
-       {{"length", 16.0, 1.0, 1000.0, "m"},
-        {"width", 11.0, 1.0, 1000.0, "at most the length, m"},
-        {"break", 3.0, 0.1, 100.0, "height at which the pitch changes, m"},
-        {"steep", 70.0, 20.0, 85.0, "pitch below, degrees"},
-        {"pitch", 25.0, 5.0, 80.0, "pitch above, degrees"}},
+      {"mansard", "hip roof in two pitches; the roof alone", 0.25,
+       with_airborne_options({{"length", 16.0, 1.0, 1000.0, "m"},
+                              {"width", 11.0, 1.0, 1000.0, "at most the length, m"},
+                              {"break", 3.0, 0.1, 100.0, "height at which the pitch changes, m"},
+                              {"steep", 70.0, 20.0, 85.0, "pitch below, degrees"},
+                              {"pitch", 25.0, 5.0, 80.0, "pitch above, degrees"}}),
        build_mansard},
-      {"dormer",
-       "gable roof with a dormer; without walls but those of the dormer",
-       0.2,
-       {{"length", 12.0, 1.0, 1000.0, "along the ridge, m"},
-        {"width", 10.0, 1.0, 1000.0, "across the ridge, m"},
-        {"pitch", 42.0, 5.0, 80.0, "degrees"},
-        {"dormer_width", 2.4, 0.1, 100.0, "m"},
-        {"dormer_wall", 1.4, 0.05, 100.0, "height of its front up to the eaves, m"}},
+      {"dormer", "gable roof with a dormer; without walls but those of the dormer", 0.2,
+       with_airborne_options({{"length", 12.0, 1.0, 1000.0, "along the ridge, m"},
+                              {"width", 10.0, 1.0, 1000.0, "across the ridge, m"},
+                              {"pitch", 42.0, 5.0, 80.0, "degrees"},
+                              {"dormer_width", 2.4, 0.1, 100.0, "m"},
+                              {"dormer_wall", 1.4, 0.05, 100.0, "height of its front up to the eaves, m"}}),
        build_dormer},
-      {"dome",
-       "cap of a sphere on a square flat roof",
-       0.2,
-       {{"radius", 5.0, 0.1, 1000.0, "of the sphere, m"},
-        {"cut", 0.4, 0.0, 0.9, "height of the roof over the sphere's centre, in radii"}},
+      {"dome", "cap of a sphere on a square flat roof", 0.2,
+       with_airborne_options({{"radius", 5.0, 0.1, 1000.0, "of the sphere, m"},
+                              {"cut", 0.4, 0.0, 0.9, "height of the roof over the sphere's centre, in radii"}}),
        build_dome},
-      {"parapet",
-       "flat roof with a parapet, and the walls below it",
-       0.2,
-       {{"length", 14.0, 1.0, 1000.0, "m"},
-        {"width", 10.0, 1.0, 1000.0, "m"},
-        {"height", 0.9, 0.01, 10.0, "of the parapet over the roof, m"},
-        {"thickness", 0.4, 0.01, 0.49, "of the parapet, m"}},
+      {"parapet", "flat roof with a parapet, and the walls below it", 0.2,
+       with_airborne_options({{"length", 14.0, 1.0, 1000.0, "m"},
+                              {"width", 10.0, 1.0, 1000.0, "m"},
+                              {"height", 0.9, 0.01, 10.0, "of the parapet over the roof, m"},
+                              {"thickness", 0.4, 0.01, 0.49, "of the parapet, m"},
+                              {"walls", 1.0, 0.0, 1.0, "0: without any walls, as seen from the air", true}}),
        build_parapet},
+      {"roofs", "all seven roofs above beside each other, with trees: what an airborne scanner sees of a settlement",
+       0.35, roofs_options(), build_roofs},
       {"columns",
        "columns of 0.3 to 1 m diameter on a base, under an entablature",
        0.03,

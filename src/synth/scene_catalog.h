@@ -16,6 +16,7 @@ struct SceneOption {
   double value = 0.0;  ///< Default.
   double min = 0.0, max = 0.0;
   std::string description;
+  bool quiet = false;  ///< Not among the properties of the truth while it has its default.
 };
 
 /// Values of all options of a scene by name.

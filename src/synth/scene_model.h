@@ -22,8 +22,9 @@ struct SceneModel {
   std::vector<Face> faces;
   std::vector<TruthEdge> edges;
   std::vector<ScannerStation> stations;
-  double spray_share = 0.0;  ///< Least share of outliers, [0, 1).
-  double spray_reach = 0.0;  ///< Metres around the faces' box in which outliers are; 0: 10 % of its longest side.
+  double spray_share = 0.0;      ///< Least share of outliers, [0, 1).
+  double intensity_noise = 0.0;  ///< Standard deviation of the intensity, share of it, [0, 1].
+  double spray_reach = 0.0;      ///< Metres around the faces' box in which outliers are; 0: 10 % of its longest side.
 
   /// The rectangle with corner `a` and sides a-b and a-d (perpendicular); its normal is (b - a) x (d - a). The
   /// reference is valid until the next face is added.

@@ -19,7 +19,7 @@ bool parallel(const Vec3& a, const Vec3& b) {
 }
 
 bool same_surface(const Face& a, const Face& b) {
-  if (a.shape != b.shape) return false;
+  if (a.shape != b.shape || a.material_number != b.material_number) return false;
   const Vec3 apart = b.origin - a.origin;
   switch (a.shape) {
     case Face::Shape::kPlane:

@@ -79,14 +79,21 @@ double mean_share(const Face& face, const Box3& bounds, Sampling sampling) {
   return owned > 0 ? sum / owned : 1.0;
 }
 
+/// True if points are counted per spacing³.
 bool is_volume(const SceneModel& model) {
-  return !model.faces.empty() && model.faces.front().shape == Face::Shape::kVolume;
+  return !model.faces.empty() && model.faces.front().shape == Face::Shape::kVolume &&
+         model.faces.front().returns == 0.0;
+}
+
+/// What the number of points is proportional to.
+double counted_measure(const Face& face) {
+  return face.returns > 0.0 ? face.measure() * (face.returns / face.size_w) : face.measure();
 }
 
 double weighted_measure(const SceneModel& model, Sampling sampling) {
   const Box3 bounds = model.bounds();
   double sum = 0.0;
-  for (const Face& face : model.faces) sum += face.measure() * mean_share(face, bounds, sampling);
+  for (const Face& face : model.faces) sum += counted_measure(face) * mean_share(face, bounds, sampling);
   return sum;
 }
 
@@ -120,10 +127,11 @@ SurfaceSampler::SurfaceSampler(const SceneModel& model, const SurfaceSampling& s
     raster.face = i;
     raster.first_row = rows_;
     raster.rows = cells(size_v, scan && !volume ? s * kScanLineFactor : s);
-    raster.layers = volume ? cells(face.size_w, s) : 1;
+    const bool filled = volume && face.returns == 0.0;
+    raster.layers = filled ? cells(face.size_w, s) : volume ? cells(face.returns, 1.0) : 1;
     // Columns make up for the rounding of rows, so that narrow faces have the promised density too.
     const double row_height = size_v / static_cast<double>(raster.rows);
-    const double layer_height = volume ? face.size_w / static_cast<double>(raster.layers) : s;
+    const double layer_height = filled ? face.size_w / static_cast<double>(raster.layers) : s;
     raster.columns = cells(size_u * (row_height / s) * (layer_height / s), s);
     if (sampling.sampling == Sampling::kPoisson && !volume && !sphere) {
       raster.rows = cells(std::ceil(size_v / s), 1.0) + 2;
@@ -261,7 +269,12 @@ void SurfaceSampler::place(const Face& face, const CellRow& row, std::uint64_t c
   }
   auto [position, owned] = position_of(face, row, column, a, b);
   if (!owned) return;
-  if (volume) position = position + (row.w_low + random.uniform() * (row.w_high - row.w_low)) * face.ew;
+  if (volume) {
+    const double w = row.w_low + random.uniform() * (row.w_high - row.w_low);
+    const Vec3 from_origin = position - face.origin;
+    if (!face.fills(dot(from_origin, face.eu), dot(from_origin, face.ev), w)) return;
+    position = position + w * face.ew;
+  }
   if (sampling_.sampling == Sampling::kGradient && random.uniform() >= gradient_share_at(bounds_, position)) return;
   finish(face, row, position, random, out);
 }
@@ -279,7 +292,11 @@ void SurfaceSampler::finish(const Face& face, const CellRow& row, Vec3 position,
   point.x = position.x;
   point.y = position.y;
   point.z = position.z;
-  point.intensity = static_cast<std::uint16_t>(65535.0 * face.material.reflectance);
+  double reflectance = face.material.reflectance;
+  if (model_.intensity_noise > 0.0) {
+    reflectance = std::clamp(reflectance * (1.0 + model_.intensity_noise * random.normal()), 0.0, 1.0);
+  }
+  point.intensity = static_cast<std::uint16_t>(65535.0 * reflectance);
   point.classification = outlier ? std::uint8_t{7} : face.material.classification;
   point.point_source_id = outlier ? std::uint16_t{0} : row.face_number;
   point.label = outlier ? 0 : face.surface;

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "synth/airborne.h"
 #include "synth/deterministic_math.h"
 #include "synth/mesh.h"
 #include "synth/scene_builders.h"
@@ -33,14 +34,21 @@ SceneModel build_parapet(const OptionValues& options, double /*spacing*/) {
   SceneModel model;
   const auto foot = rectangle_at(x, y, -kBelow), outer = rectangle_at(x, y, h);
   const auto inner = rectangle_at(x - t, y - t, h), floor = rectangle_at(x - t, y - t, 0.0);
-  add_band(model, foot, outer, EdgeKind::kConvex, "wall_corner", kWall);
-  add_band(model, floor, inner, EdgeKind::kConcave, "parapet_corner", kWall);
+  const bool walls = options.at("walls") != 0.0;
+  if (walls) {
+    add_band(model, foot, outer, EdgeKind::kConvex, "wall_corner", kWall);
+    add_band(model, floor, inner, EdgeKind::kConcave, "parapet_corner", kWall);
+  }
   model.rectangle(outer[0], outer[1], outer[3], kWall).rect_holes = {{{t, t}, {2.0 * x - t, 2.0 * y - t}}};
   model.rectangle(floor[0], floor[1], floor[3], kGravel);
-  model.loop(EdgeKind::kBoundary, "foot", foot);
-  model.loop(EdgeKind::kConvex, "parapet", outer, 90.0);
-  model.loop(EdgeKind::kConvex, "parapet", inner, 90.0);
-  model.loop(EdgeKind::kConcave, "roof_border", floor, 90.0);
+  // Without the walls between them, level and parapet end where they met them.
+  const double angle_deg = walls ? 90.0 : 0.0;
+  const EdgeKind top = walls ? EdgeKind::kConvex : EdgeKind::kBoundary;
+  if (walls) model.loop(EdgeKind::kBoundary, "foot", foot);
+  model.loop(top, "parapet", outer, angle_deg);
+  model.loop(top, "parapet", inner, angle_deg);
+  model.loop(walls ? EdgeKind::kConcave : EdgeKind::kBoundary, "roof_border", floor, angle_deg);
+  add_airborne(model, options);
   return model;
 }
 

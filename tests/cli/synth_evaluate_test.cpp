@@ -94,6 +94,32 @@ TEST(SynthLabels, AreAColumnMore_AndTheRestStaysTheSame) {
   }
 }
 
+TEST(EvaluateSegments, PlanesOfRoofs_AreJudgedWithTheirTrees) {
+  const TempFolder folder;
+  const std::string cloud = folder / "roofs.las";
+  ASSERT_EQ(run_arris({"synth", "roofs", "--spacing", "0.7", "-o", cloud, "--labels"}).exit_code, 0);
+  const std::vector<std::string> evaluate{"evaluate", cloud, "--labels", cloud, "--spacing", "0.7"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), evaluate.begin(), evaluate.end());
+    return run_arris(more);
+  };
+  const ProcessResult truth = with({"--segments", "FaceId", "--planes", "--min-area", "20", "--json"});
+  ASSERT_EQ(truth.exit_code, 0) << truth.err;
+  const auto planes = nlohmann::json::parse(truth.out)["planes"];
+  EXPECT_EQ(planes["min_area"], 20.0);
+  EXPECT_EQ(planes["all"]["planes_found"], 33);
+  EXPECT_LT(planes["large"]["planes"], 33);
+  EXPECT_EQ(planes["large"]["correctness"], 1.0);
+  EXPECT_EQ(planes["strays_unsegmented_share"], 1.0);
+  // Numbers of faces are those of surfaces, but trees have one too.
+  const ProcessResult faces = with({"--segments", "point_source_id", "--planes"});
+  ASSERT_EQ(faces.exit_code, 0) << faces.err;
+  EXPECT_NE(faces.out.find("points on no surface, 0.0000 without a segment"), std::string::npos) << faces.out;
+  EXPECT_NE(faces.out.find("segments alone 7"), std::string::npos) << faces.out;
+  EXPECT_EQ(with({"--segments", "FaceId"}).out.find("planes found"), std::string::npos);
+  EXPECT_EQ(with({"--segments", "FaceId", "--min-area", "-1"}).exit_code, 2);
+}
+
 TEST(EvaluateSegments, OfFormatsScalesAndColumns_CompareThePointsThatAreTheSame) {
   const TempFolder folder;
   const std::string las = folder / "block.las", ply = folder / "block.ply";
