@@ -33,6 +33,7 @@ void SegmentGrowth::join_touched() {
     if (label == 0) {  // It had no link of its own.
       label = link.component;
       ++sizes_[link.component - 1];
+      discs_[link.component - 1] += link.disc;
     } else {
       sets_.join(label - 1, link.component - 1);
     }

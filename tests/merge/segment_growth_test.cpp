@@ -153,7 +153,7 @@ RC_GTEST_PROP(SegmentGrowth, OrderOfEntriesAndPlaceDoNotMatter, ()) {
 }
 
 struct AllTiles {
-  merge::PointLabels labels;
+  merge::GrownSegments grown;
   std::map<std::uint64_t, std::vector<std::uint32_t>> frontier;  ///< By id.
   std::uint64_t isolated = 0;
 };
@@ -192,7 +192,7 @@ AllTiles in_parts(const Cloud& cloud, std::int64_t halo) {
       add(again, cloud, growth, all);
     }
   }
-  all.labels = growth.finish().labels;
+  all.grown = growth.finish();
   return all;
 }
 
@@ -201,10 +201,11 @@ RC_GTEST_PROP(SegmentGrowth, HoweverTheCloudIsCut_TheSegmentsAreTheSame, ()) {
   merge::SegmentGrowth growth(cloud.end_id, cloud.parameters.min_points);
   AllTiles whole;
   add(cloud.grow(cloud.tile), cloud, growth, whole);
-  whole.labels = growth.finish().labels;
+  whole.grown = growth.finish();
   const AllTiles parts = in_parts(cloud, any(0, 400));
-  RC_CLASSIFY(*std::max_element(whole.labels.begin(), whole.labels.end()) > 1, "several segments");
-  RC_ASSERT(parts.labels == whole.labels);
+  RC_CLASSIFY(whole.grown.discs.size() > 1, "several segments");
+  RC_ASSERT(parts.grown.labels == whole.grown.labels);
+  RC_ASSERT(parts.grown.discs == whole.grown.discs);
   RC_ASSERT(parts.isolated == whole.isolated);
   // The frontier may hold more where tiles met, but nothing may be missing from it.
   for (const auto& [id, record] : whole.frontier) {
@@ -236,8 +237,10 @@ TEST(SegmentGrowthMerge, ComponentsThatTouch_AreOneSegmentNumberedByItsSmallestI
 
 TEST(SegmentGrowthMerge, PointWithoutLinksOfItsOwn_JoinsAndCounts) {
   merge::SegmentGrowth growth(5, 3);
-  growth.add(tile_with({2}, {{1, 1}, {2, 1}}, {{4, 1}}));
-  EXPECT_EQ(growth.finish().labels, (merge::PointLabels{0, 1, 1, 0, 1}));
+  growth.add(tile_with({2}, {{1, 1}, {2, 1}}, {{4, 1, 7}}));
+  const merge::GrownSegments grown = growth.finish();
+  EXPECT_EQ(grown.labels, (merge::PointLabels{0, 1, 1, 0, 1}));
+  EXPECT_EQ(grown.discs, (std::vector<std::uint64_t>{17}));
 }
 
 TEST(SegmentGrowthMerge, Offers_MostParallelWinsThenTheSmallestId) {

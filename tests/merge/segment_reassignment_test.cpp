@@ -37,7 +37,8 @@ RC_GTEST_PROP(SegmentMoments, PlaneIsThatOfEigen_AndRemovingUndoesAdding, ()) {
   RC_ASSERT(moments.points(2) == 60U);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   const auto vector = [&](const LatticePoint& p) {
-    return Eigen::Vector3d(p.x - double{points[0].x}, p.y - double{points[0].y}, p.z - double{points[0].z});
+    const LatticePoint& o = points[0];
+    return Eigen::Vector3d(double(p.x) - o.x, double(p.y) - o.y, double(p.z) - o.z);
   };
   for (const LatticePoint& p : points) mean += vector(p) / 60.0;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();

@@ -196,10 +196,10 @@ class Grower {
         component_[root] = static_cast<std::uint32_t>(growth_.sizes.size());
       }
       component_[slot] = component_[root];
-      const TileGrowth::Member member{tree_.id(slot), component_[slot]};
+      const TileGrowth::Member member{tree_.id(slot), component_[slot], disc_of(slot)};
       if (is_query_[slot]) {
         ++growth_.sizes[component_[slot] - 1];
-        growth_.discs[component_[slot] - 1] += disc_of(slot);
+        growth_.discs[component_[slot] - 1] += member.disc;
         growth_.members.push_back(member);
       } else {
         growth_.touched.push_back(member);
@@ -211,11 +211,11 @@ class Grower {
     }
   }
 
-  std::uint64_t disc_of(std::uint32_t slot) const {
+  std::uint32_t disc_of(std::uint32_t slot) const {
     const auto neighbours = points_.neighbours(slot);
     if (neighbours.empty()) return 0;
     const std::uint64_t d2 = squared_distance(tree_.position(slot), tree_.position(neighbours.back()));
-    return std::min<std::uint64_t>(d2 / neighbours.size(), 0xffffffffU);
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(d2 / neighbours.size(), 0xffffffffU));
   }
 
   bool inside_component(std::uint32_t slot) const {

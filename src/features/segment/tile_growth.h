@@ -29,6 +29,7 @@ struct TileGrowth {
   struct Member {
     std::uint64_t id = 0;
     std::uint32_t component = 0;
+    std::uint32_t disc = 0;  ///< d^2 / m, d being the distance of the last of m neighbours, steps^2; see discs.
   };
   /// A point that cannot grow and would join this component.
   struct Offer {
@@ -42,8 +43,8 @@ struct TileGrowth {
   std::vector<Member> touched;       ///< Growing points that are no queries, linked with a query.
   std::vector<Offer> offers;         ///< To any points.
   std::vector<std::uint32_t> sizes;  ///< Queries in each component.
-  /// Sum over the queries of each component of d^2 / m, d being the distance of the last of m neighbours, steps^2,
-  /// rounded down and at most 2^32 - 1 each: times pi, about the component's area.
+  /// Sum over the queries of each component of Member::disc, rounded down and at most 2^32 - 1 each: times pi, about
+  /// the component's area.
   std::vector<std::uint64_t> discs;
   /// Queries that may have a neighbour of another segment or none, (4 + k) words each: id, x, y, z, then the ids of the
   /// neighbours, filled up with kNoId. Contains all queries that are in no component of least_component() or more.
