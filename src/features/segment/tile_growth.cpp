@@ -1,7 +1,6 @@
 #include "features/segment/tile_growth.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "core/disjoint_sets.h"
@@ -84,27 +83,30 @@ class Grower {
     }
   }
 
-  bool unproven_within(std::uint32_t slot, int depth) const {
-    if (points_.state(slot) == ShapeState::kUnproven) return true;
-    if (depth == 0) return false;
-    for (const std::uint32_t neighbour : points_.neighbours(slot))
-      if (unproven_within(neighbour, depth - 1)) return true;
-    return false;
+  /// Those that are bad, or have a neighbour that is.
+  std::vector<std::uint8_t> with_bad_neighbours(const std::vector<std::uint8_t>& bad) const {
+    std::vector<std::uint8_t> wider = bad;
+    parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        for (const std::uint32_t neighbour : points_.neighbours(static_cast<std::uint32_t>(i)))
+          wider[i] |= bad[neighbour];
+      }
+    });
+    return wider;
   }
 
   /// Queries whose support is not whole are none from here on.
   void settle_unproven() {
     std::vector<std::uint8_t> bad(tree_.size());
-    std::vector<std::uint8_t> any(1);
-    for (std::uint32_t slot = 0; slot < tree_.size() && !any[0]; ++slot)
-      any[0] = points_.state(slot) == ShapeState::kUnproven;
-    if (!any[0]) return;
-    parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
-      for (std::size_t slot = first; slot < last; ++slot)
-        bad[slot] = is_query_[slot] && unproven_within(static_cast<std::uint32_t>(slot), rings());
-    });
+    bool any = false;
     for (std::uint32_t slot = 0; slot < tree_.size(); ++slot) {
-      if (!bad[slot]) continue;
+      bad[slot] = points_.state(slot) == ShapeState::kUnproven;
+      any |= bad[slot] != 0;
+    }
+    if (!any) return;
+    for (int ring = 0; ring < rings(); ++ring) bad = with_bad_neighbours(bad);
+    for (std::uint32_t slot = 0; slot < tree_.size(); ++slot) {
+      if (!bad[slot] || !is_query_[slot]) continue;
       is_query_[slot] = 0;
       // If its neighbours lie within d, theirs lie within 2 d of them and so within 3 d of it; those of these within
       // 4 d of them, 7 d of it. (Balls around a neighbour that hold the ball around the point hold enough points.)
@@ -139,10 +141,12 @@ class Grower {
 
   bool agrees(std::uint32_t slot) const {
     const auto neighbours = points_.neighbours(slot);
+    const auto needed =
+        static_cast<std::size_t>(std::ceil(parameters_.agreement * static_cast<double>(neighbours.size())));
     std::size_t like = 0;
-    for (const std::uint32_t neighbour : neighbours)
-      like += points_.state(neighbour) == ShapeState::kShaped && likeness_.alike(slot, neighbour);
-    return static_cast<double>(like) >= parameters_.agreement * static_cast<double>(neighbours.size());
+    for (std::size_t i = 0; i < neighbours.size() && like < needed; ++i)
+      like += points_.state(neighbours[i]) == ShapeState::kShaped && likeness_.alike(slot, neighbours[i]);
+    return like >= needed;
   }
 
   /// Growing is asked of queries and their neighbours only.
@@ -170,12 +174,16 @@ class Grower {
         ++growth_.isolated;
         return;
       }
+      std::uint32_t root = sets_.find(slot);
       for (const std::uint32_t neighbour : points_.neighbours(slot)) {
+        const bool both = grows_[slot] && grows_[neighbour];
+        if (both && sets_.find(neighbour) == root) continue;  // Most are linked already.
         if (points_.state(neighbour) != ShapeState::kShaped || !(grows_[slot] || grows_[neighbour])) continue;
         if (!likeness_.alike(slot, neighbour)) continue;
-        if (grows_[slot] && grows_[neighbour]) {
+        if (both) {
           numbered_[slot] = numbered_[neighbour] = 1;
           sets_.join(slot, neighbour);
+          root = sets_.find(slot);
         } else if (parameters_.published) {
           const auto [joins, via] = grows_[slot] ? std::pair(neighbour, slot) : std::pair(slot, neighbour);
           numbered_[via] = 1;

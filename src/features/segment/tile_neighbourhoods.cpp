@@ -33,8 +33,7 @@ class TileNeighbourhoods::Runner {
  private:
   void take(std::uint32_t slot, const Neighbours& found) {
     all_.counts_[slot] = static_cast<std::uint8_t>(found.count);
-    std::copy_n(found.slot.begin(), found.count,
-                all_.slots_.begin() + static_cast<std::ptrdiff_t>(slot * all_.stride_));
+    std::copy_n(found.slot.begin(), found.count, all_.slots_.get() + slot * all_.stride_);
     const double needed =
         found.count == all_.stride_ ? std::sqrt(static_cast<double>(found.last_d2)) * (1.0 + 1e-12) : all_.reach_steps_;
     if (!(needed < static_cast<double>(all_.covered_.depth(all_.tree_.position(slot))))) {
@@ -63,7 +62,7 @@ TileNeighbourhoods::TileNeighbourhoods(const PointTree& tree, const LatticeBox& 
       stride_(parameters.most_neighbours()),
       reach_steps_(parameters.reach() / lattice.step),
       weights_{parameters.inlier_distance / lattice.step, parameters.published},
-      slots_(tree.size() * stride_),
+      slots_(std::make_unique_for_overwrite<std::uint32_t[]>(tree.size() * stride_)),
       counts_(tree.size()),
       shapes_(tree.size()),
       states_(tree.size(), ShapeState::kUnasked) {}

@@ -2,6 +2,7 @@
 /// @file Neighbours, normals and curvatures of the points of a tile, where they are asked for.
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -40,7 +41,7 @@ class TileNeighbourhoods {
   const PointShape& shape(std::uint32_t slot) const { return shapes_[slot]; }
   /// By (distance, id). Those found so far where the state is kUnproven.
   std::span<const std::uint32_t> neighbours(std::uint32_t slot) const {
-    return {slots_.data() + std::size_t{slot} * stride_, counts_[slot]};
+    return {slots_.get() + std::size_t{slot} * stride_, counts_[slot]};
   }
   /// Distance in steps within which the neighbours must lie, from those found so far; the reach if they are too few.
   double reach_of(std::uint32_t slot) const;
@@ -55,7 +56,7 @@ class TileNeighbourhoods {
   std::size_t stride_;
   double reach_steps_;
   PlaneWeights weights_;
-  std::vector<std::uint32_t> slots_;
+  std::unique_ptr<std::uint32_t[]> slots_;  ///< Written where asked for only.
   std::vector<std::uint8_t> counts_;
   std::vector<PointShape> shapes_;
   std::vector<ShapeState> states_;
