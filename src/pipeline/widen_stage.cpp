@@ -75,7 +75,8 @@ class Widener {
     for (std::size_t tile = 0; tile < job_.tiles.tiles.size(); ++tile) {
       if (!regions.touches(job_.tiles.tiles[tile].core)) continue;
       store_.load_core(
-          tile, [&](const LatticePoint& p) { return regions.contains(p); }, positions, ids);
+          tile, [&](const LatticePoint& p) { return regions.contains(p); }, positions, ids,
+          [&](const LatticeBox& box) { return regions.touches(box); });
       if (positions.size() > job_.memory.max_tile_points && queries.size() > 1) return std::nullopt;
       if (job_.memory.tile_bytes(positions.size()) > job_.memory.tiles_bytes) return std::nullopt;
     }

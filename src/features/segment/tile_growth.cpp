@@ -1,6 +1,7 @@
 #include "features/segment/tile_growth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_map>
 
@@ -113,19 +114,30 @@ class Grower {
               [](const UnprovenQuery& a, const UnprovenQuery& b) { return a.id < b.id; });
   }
 
+  std::uint8_t median_intensity(std::uint32_t slot) const {
+    std::array<std::uint8_t, kMostNeighbours + 1> values;
+    std::size_t count = 0;
+    std::uint8_t least = 255, most = 0;
+    const auto take = [&](std::uint8_t value) {
+      values[count++] = value;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    };
+    take(intensities_[slot]);
+    for (const std::uint32_t neighbour : points_.neighbours(slot)) take(intensities_[neighbour]);
+    if (least == most) return least;
+    const auto middle = values.begin() + count / 2;
+    std::nth_element(values.begin(), middle, values.begin() + count);
+    return *middle;
+  }
+
   /// Every point gets the median of its surroundings: noise goes, the borders of materials stay where they are.
   void smooth_intensities() {
     std::vector<std::uint8_t> smooth = intensities_;
     parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
-      std::vector<std::uint8_t> values;
       for (std::size_t i = first; i < last; ++i) {
         const auto slot = static_cast<std::uint32_t>(i);
-        if (points_.state(slot) != ShapeState::kShaped) continue;
-        values.assign(1, intensities_[slot]);
-        for (const std::uint32_t neighbour : points_.neighbours(slot)) values.push_back(intensities_[neighbour]);
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), middle, values.end());
-        smooth[slot] = *middle;
+        if (points_.state(slot) == ShapeState::kShaped) smooth[slot] = median_intensity(slot);
       }
     });
     intensities_.swap(smooth);
