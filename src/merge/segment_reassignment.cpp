@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "features/numerics/exact_math.h"
 #include "merge/segment_sides.h"
 
 namespace arris::merge {
@@ -23,7 +24,12 @@ class Judge {
  public:
   Judge(const ReassignmentSetup& setup, const PointLabels& labels, const std::vector<SegmentPlane>& planes,
         const SegmentSides& sides)
-      : published_(setup.parameters.published), labels_(labels), planes_(planes), sides_(sides), limit_(planes.size()) {
+      : published_(setup.parameters.published),
+        labels_(labels),
+        planes_(planes),
+        sides_(sides),
+        limit_(planes.size()),
+        least_alignment_(cosine(setup.parameters.angle_deg / kDegreesPerRadian)) {
     for (std::size_t i = 0; i < planes.size(); ++i) {
       const double s = planes[i].spacing;
       limit_[i] = setup.parameters.reassign_distance > 0.0
@@ -56,6 +62,9 @@ class Judge {
   bool is_nearer(std::uint32_t a, double d_a, std::uint32_t b, double d_b) const {
     const bool nearer = std::fabs(d_a) < std::fabs(d_b) || (std::fabs(d_a) == std::fabs(d_b) && a < b);
     if (published_ || std::fabs(d_b) > limit_[b - 1]) return nearer;
+    // One plane in two segments (of different materials) says nothing: the point's own segment, or that of the nearer
+    // neighbour, stays.
+    if (std::fabs(dot(planes_[a - 1].normal, planes_[b - 1].normal)) > least_alignment_) return false;
     // Each segment ends where the planes meet. Of the two planes that halve the angle, only the one between the two
     // segments counts: the distances alone would also cut at the other, across the noise above a ridge.
     const int side_of_a = sides_.side(a, b), side_of_b = sides_.side(b, a);
@@ -69,6 +78,7 @@ class Judge {
   const std::vector<SegmentPlane>& planes_;
   const SegmentSides& sides_;
   std::vector<double> limit_;  ///< Steps.
+  double least_alignment_;
 };
 
 /// Looks at the points of every segment that have neighbours in another.

@@ -18,7 +18,7 @@ namespace arris::merge {
 /// segment's spacing. The paper gives no value.
 constexpr double kReassignRms = 3.0;
 constexpr double kLeastReassign = 0.15;
-constexpr double kMostReassign = 0.85;
+constexpr double kMostReassign = 0.35;
 /// Segments with a larger RMS, in spacings, are curved: their points are not where their plane is, and do not leave for
 /// another one.
 constexpr double kMostPlanarRms = 0.5;

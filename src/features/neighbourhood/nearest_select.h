@@ -14,10 +14,10 @@ namespace arris {
 /// Neighbours of one point in canonical order: (exact squared distance, global id). The point itself is not among them.
 struct Neighbours {
   std::size_t count = 0;
-  std::vector<double> dx, dy, dz;  ///< Position minus the query's, steps, exact; padded with zeros.
-  std::vector<double> d2;          ///< Squared distances, steps² (rounded above 2^53).
+  std::vector<double> dx, dy, dz;   ///< Position minus the query's, steps, exact; padded with zeros.
+  std::vector<double> d2;           ///< Squared distances, steps² (rounded above 2^53).
   std::vector<std::uint32_t> slot;  ///< In tree order.
-  std::uint64_t last_d2 = 0;       ///< Exact square of the last one's distance.
+  std::uint64_t last_d2 = 0;        ///< Exact square of the last one's distance.
 
   void reserve(std::size_t k) {
     for (auto* column : {&dx, &dy, &dz, &d2}) column->resize(simd::padded(k) + simd::kPadding);
