@@ -5,7 +5,6 @@
 #include "core/memory_budget.h"
 #include "core/parallel.h"
 #include "core/process_memory.h"
-#include "pipeline/run_support.h"
 #include "pipeline/tile_stage.h"
 #include "pipeline/widen_stage.h"
 #include "tiling/tile_store.h"
@@ -17,7 +16,7 @@ GrowthResult grow_segments(io::InputSet& inputs, const GrowthSetup& setup, merge
   const TileJob& job = setup.job;
   merge::SegmentGrowth growth(inputs.points(), setup.parameters.least_component());
   const TileAnalysis analysis = [&](const TilePoints& points,
-                                    std::optional<std::span<const std::uint32_t>> queries) -> TileOutcome {
+                                    std::optional<std::span<const PlacedQuery>> queries) -> TileOutcome {
     std::vector<std::uint8_t> intensities(setup.intensities.empty() ? 0 : points.ids.size());
     for (std::size_t i = 0; i < intensities.size(); ++i) intensities[i] = setup.intensities[points.ids[i]];
     TileGrowth grown = grow_tile(points, intensities, job.survey.lattice, setup.parameters, queries);
@@ -35,12 +34,14 @@ GrowthResult grow_segments(io::InputSet& inputs, const GrowthSetup& setup, merge
     MemoryBudget budget(job.memory.tiles_bytes);
     const TileStageResult tiles = run_tile_stage(inputs, job, analysis, setup.folder, store, budget, progress, cancel);
     result.peak_temp_bytes = std::max(tiles.spooled_bytes, folder_bytes(setup.folder));
+    setup.watch.lap("tiles");
     const WidenResult widened = run_widen_stage(job, tiles.unproven, analysis, setup.folder, store, progress, cancel);
     result.isolated = tiles.isolated + widened.isolated;
     result.widened_queries = widened.queries;
     for (std::size_t tile = 0; tile < job.tiles.tiles.size(); ++tile) store.remove(tile);
   }
   release_free_memory();
+  setup.watch.lap("widen");
   result.components = growth.components();
   result.segments = growth.finish();
   // What has the position of another point has its segment.
@@ -48,6 +49,7 @@ GrowthResult grow_segments(io::InputSet& inputs, const GrowthSetup& setup, merge
       [&](const merge::DuplicatePoint& point) { result.segments.labels[point.id] = result.segments.labels[point.of]; });
   result.peak_temp_bytes = std::max(result.peak_temp_bytes, 2 * frontier.bytes_on_disk());
   frontier.keep_border(result.segments.labels);
+  setup.watch.lap("join");
   return result;
 }
 

@@ -12,6 +12,7 @@
 #include "merge/duplicate_points.h"
 #include "merge/segment_frontier.h"
 #include "merge/segment_growth.h"
+#include "pipeline/run_support.h"
 #include "pipeline/tile_job.h"
 
 namespace arris::pipeline {
@@ -22,6 +23,7 @@ struct GrowthSetup {
   std::span<const std::uint8_t> intensities;  ///< By point id, or empty.
   int threads = 1;
   std::filesystem::path folder;
+  Stopwatch& watch;  ///< Gets "tiles", "widen" and "join".
 };
 
 struct GrowthResult {

@@ -36,7 +36,7 @@ OutlineResult outline_segments(io::InputSet& inputs, TileJob& job, const Outline
   plan(job, setup, progress);
   std::mutex mutex;  // Guards `edges`.
   std::vector<OutlineEdge> edges;
-  const TileAnalysis analysis = [&](const TilePoints& points, std::optional<std::span<const std::uint32_t>>) {
+  const TileAnalysis analysis = [&](const TilePoints& points, std::optional<std::span<const PlacedQuery>>) {
     std::vector<std::uint32_t> labels(points.ids.size());
     for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = setup.segments.labels[points.ids[i]];
     SegmentContours found =

@@ -106,13 +106,13 @@ PlanarSegments find_segments(io::InputSet& inputs, const SegmentRequest& request
                              const CancelToken& cancel) {
   merge::SegmentFrontier frontier(folder / "frontier", report.parameters.most_neighbours());
   merge::DuplicatePoints duplicates(folder / "duplicates");
-  GrowthResult growth = grow_segments(inputs, {job, report.parameters, intensities.of_point, request.threads, folder},
-                                      frontier, duplicates, progress, cancel);
+  GrowthResult growth =
+      grow_segments(inputs, {job, report.parameters, intensities.of_point, request.threads, folder, watch}, frontier,
+                    duplicates, progress, cancel);
   report.isolated = growth.isolated;
   report.widened_queries = growth.widened_queries;
   report.peak_temp_bytes = growth.peak_temp_bytes;
   report.frontier = frontier.records();
-  watch.lap("growth");
   const ThreadLimit limit(request.threads);
   PlanarSegments segments = settle_segments(inputs, {job.survey.lattice, report.parameters, folder},
                                             std::move(growth.segments), frontier, duplicates, progress, cancel);

@@ -47,6 +47,6 @@ struct TileOutcome {
 /// What is done with points; called from several threads at once. The queries are the entries listed, or, without a
 /// list, the points of points.core.
 using TileAnalysis =
-    std::function<TileOutcome(const TilePoints& points, std::optional<std::span<const std::uint32_t>> queries)>;
+    std::function<TileOutcome(const TilePoints& points, std::optional<std::span<const PlacedQuery>> queries)>;
 
 }  // namespace arris::pipeline

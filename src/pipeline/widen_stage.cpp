@@ -45,15 +45,27 @@ class Widener {
       const auto found = index_of.find(points->ids[i]);
       if (found != index_of.end()) found->second = i;
     }
-    std::vector<std::uint32_t> indices;
-    for (const UnprovenQuery& query : queries) indices.push_back(index_of.at(query.id));
-    const TileOutcome answered = analysis_(*points, indices);
-    if (!answered.unproven.empty())
-      throw IoError("internal: a query stayed unproven on complete support; please report this");
+    std::vector<PlacedQuery> placed;
+    for (const UnprovenQuery& query : queries) placed.push_back({index_of.at(query.id), query.reach_steps});
+    const TileOutcome answered = analysis_(*points, placed);
+    points.reset();
     outcome_.isolated += answered.isolated;
+    if (answered.unproven.empty()) return;
+    require_progress(queries, answered.unproven);
+    answer(answered.unproven);
   }
 
  private:
+  /// Every round must look farther, or it would never end.
+  static void require_progress(std::span<const UnprovenQuery> before, std::span<const UnprovenQuery> after) {
+    std::unordered_map<std::uint64_t, std::int64_t> reach_of;
+    for (const UnprovenQuery& query : before) reach_of.emplace(query.id, query.reach_steps);
+    for (const UnprovenQuery& query : after) {
+      if (query.reach_steps <= reach_of.at(query.id))
+        throw IoError("internal: a query stayed unproven on complete support; please report this");
+    }
+  }
+
   /// The points in reach of the queries, or nothing if there are too many.
   std::optional<TilePoints> collect(std::span<const UnprovenQuery> queries) {
     tiling::QueryRegions regions;
@@ -63,7 +75,8 @@ class Widener {
     for (std::size_t tile = 0; tile < job_.tiles.tiles.size(); ++tile) {
       if (!regions.touches(job_.tiles.tiles[tile].core)) continue;
       store_.load_core(
-          tile, [&](const LatticePoint& p) { return regions.contains(p); }, positions, ids);
+          tile, [&](const LatticePoint& p) { return regions.contains(p); }, positions, ids,
+          [&](const LatticeBox& box) { return regions.touches(box); });
       if (positions.size() > job_.memory.max_tile_points && queries.size() > 1) return std::nullopt;
       if (job_.memory.tile_bytes(positions.size()) > job_.memory.tiles_bytes) return std::nullopt;
     }

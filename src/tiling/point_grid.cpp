@@ -146,6 +146,15 @@ std::int32_t to_steps(std::int32_t voxel, int log2) {
   return static_cast<std::int32_t>(std::int64_t{voxel} * (std::int64_t{1} << log2));
 }
 
+LatticeBox box_of(const Leaf& leaf, int log2) {
+  LatticeBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min[axis] = to_steps(leaf.origin()[axis], log2);
+    box.max[axis] = box.min[axis] + (std::int64_t{Leaf::DIM} << log2);
+  }
+  return box;
+}
+
 }  // namespace
 
 struct PointGrid::Impl {
@@ -217,7 +226,7 @@ void PointGrid::write(std::ostream& stream) const {
   archive.write(openvdb::GridCPtrVec{impl_->grid});
 }
 
-SortedPoints read_point_grid(std::istream& stream) {
+SortedPoints read_point_grid(std::istream& stream, const std::function<bool(const LatticeBox&)>& wanted) {
   initialize_openvdb();
   const openvdb::GridPtrVecPtr grids = openvdb::io::Stream(stream, /*delayLoad=*/false).getGrids();
   if (!grids || grids->size() != 1) throw std::runtime_error("holds no single grid");
@@ -229,6 +238,7 @@ SortedPoints read_point_grid(std::istream& stream) {
 
   std::vector<Leaf*> leaves;
   grid->tree().getNodes(leaves);
+  if (wanted) std::erase_if(leaves, [&](const Leaf* leaf) { return !wanted(box_of(*leaf, log2)); });
   std::ranges::sort(leaves, [](const Leaf* a, const Leaf* b) {
     const auto corner = [](const Leaf* leaf) {
       return LatticePoint{leaf->origin().x(), leaf->origin().y(), leaf->origin().z()};

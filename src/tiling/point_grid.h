@@ -2,6 +2,7 @@
 /// @file Lattice points and ids as an OpenVDB PointDataGrid in a stream, and back, without loss.
 
 #include <cstdint>
+#include <functional>
 #include <istream>
 #include <map>
 #include <memory>
@@ -47,6 +48,7 @@ class PointGrid {
 
 /// Reads what PointGrid::write wrote. Throws std::exception of some kind for anything else; the
 /// caller verifies a checksum first.
-SortedPoints read_point_grid(std::istream& stream);
+/// @param wanted  leaves for whose box this is false are left out; null: all are read.
+SortedPoints read_point_grid(std::istream& stream, const std::function<bool(const LatticeBox&)>& wanted = {});
 
 }  // namespace arris::tiling

@@ -60,7 +60,7 @@ struct TileStore::Impl {
     return found == built.end() ? std::nullopt : std::optional(found->second);
   }
 
-  SortedPoints read(std::size_t tile) const;
+  SortedPoints read(std::size_t tile, const std::function<bool(const LatticeBox&)>& near = {}) const;
 
   const std::filesystem::path folder;
   const Lattice lattice;
@@ -112,7 +112,7 @@ void TileStore::build(std::size_t tile) {
   std::filesystem::remove(spool, ignored);
 }
 
-SortedPoints TileStore::Impl::read(std::size_t tile) const {
+SortedPoints TileStore::Impl::read(std::size_t tile, const std::function<bool(const LatticeBox&)>& near) const {
   const std::filesystem::path path = tile_path(tile);
   const std::optional<ManifestEntry> expected = entry(tile);
   if (!expected) throw IoError(fmt::format("{}: tile {} has not been built", printable(path.string()), tile));
@@ -135,7 +135,7 @@ SortedPoints TileStore::Impl::read(std::size_t tile) const {
   stream.exceptions(std::ios::badbit);
   SortedPoints points;
   try {
-    points = read_point_grid(stream);
+    points = read_point_grid(stream, near);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -144,7 +144,7 @@ SortedPoints TileStore::Impl::read(std::size_t tile) const {
     throw damaged(printable(error.what()));
   }
   source.drain();
-  if (source.hasher().digest() != expected->xxh3 || points.positions.size() != expected->points) {
+  if (source.hasher().digest() != expected->xxh3 || (!near && points.positions.size() != expected->points)) {
     throw damaged("changed while it was read");
   }
   return points;
@@ -160,8 +160,9 @@ TilePoints TileStore::load(std::size_t tile) const {
 }
 
 void TileStore::load_core(std::size_t tile, const std::function<bool(const LatticePoint&)>& keep,
-                          std::vector<LatticePoint>& positions, std::vector<std::uint64_t>& ids) const {
-  const SortedPoints points = impl_->read(tile);
+                          std::vector<LatticePoint>& positions, std::vector<std::uint64_t>& ids,
+                          const std::function<bool(const LatticeBox&)>& near) const {
+  const SortedPoints points = impl_->read(tile, near);
   const LatticeBox core = impl_->tiles.at(tile).core;
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     if (!core.contains(points.positions[i]) || !keep(points.positions[i])) continue;

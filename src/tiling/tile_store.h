@@ -31,9 +31,10 @@ class TileStore {
   /// positions are in Z-order.
   TilePoints load(std::size_t tile) const;
   /// Points owned by `tile` (inside its core, duplicates included) for which keep(position) holds: appended to the
-  /// outputs, in Z-order.
+  /// outputs, in Z-order. @param near  a box for which this is false holds no such point: that saves looking.
   void load_core(std::size_t tile, const std::function<bool(const LatticePoint&)>& keep,
-                 std::vector<LatticePoint>& positions, std::vector<std::uint64_t>& ids) const;
+                 std::vector<LatticePoint>& positions, std::vector<std::uint64_t>& ids,
+                 const std::function<bool(const LatticeBox&)>& near = {}) const;
   std::uint64_t points(std::size_t tile) const;  ///< Stored points (core and halo) of a built tile; 0 otherwise.
   std::uint64_t bytes_on_disk() const;           ///< Of all built tiles that were not removed.
   /// Deletes the tile's file, if it was built.

@@ -35,7 +35,7 @@ struct Cloud {
     for (const std::uint64_t id : part.ids) values.push_back(static_cast<std::uint8_t>(id % 3 * 8));
     return values;
   }
-  TileGrowth grow(const TilePoints& part, std::optional<std::span<const std::uint32_t>> queries = std::nullopt) const {
+  TileGrowth grow(const TilePoints& part, std::optional<std::span<const PlacedQuery>> queries = std::nullopt) const {
     return grow_tile(part, intensities(part), kMillimetres, parameters, queries);
   }
   merge::PointLabels labels(const TileGrowth& growth) const {
@@ -71,7 +71,7 @@ std::vector<std::uint32_t> grow_by_queue(const Cloud& cloud) {
   const TilePoints& tile = cloud.tile;
   const std::size_t n = tile.positions.size();
   const PointTree tree(tile.positions, tile.ids);
-  TileNeighbourhoods points(tree, tile.covered, kMillimetres, cloud.parameters);
+  TileNeighbourhoods points(tree, kMillimetres, cloud.parameters);
   points.compute(std::vector<std::uint8_t>(n, 1));
   std::vector<std::uint8_t> intensities(n);
   const std::vector<std::uint8_t> of_entry = cloud.intensities(tile);
@@ -183,13 +183,17 @@ AllTiles in_parts(const Cloud& cloud, std::int64_t halo) {
     (part / 2 == 0 ? core.max[1] : core.min[1]) = cut_y;
     const TileGrowth grown = cloud.grow(test::part_of(cloud.tile, core, halo));
     add(grown, cloud, growth, all);
-    for (const UnprovenQuery& query : grown.unproven) {
-      const TilePoints points = test::part_of(cloud.tile, query);
-      const auto entry = std::find(points.ids.begin(), points.ids.end(), query.id) - points.ids.begin();
-      const std::uint32_t queries[] = {static_cast<std::uint32_t>(entry)};
-      const TileGrowth again = cloud.grow(points, queries);
-      RC_ASSERT(again.unproven.empty());
-      add(again, cloud, growth, all);
+    for (UnprovenQuery query : grown.unproven) {
+      for (;;) {
+        const TilePoints points = test::part_of(cloud.tile, query);
+        const auto entry = std::find(points.ids.begin(), points.ids.end(), query.id) - points.ids.begin();
+        const PlacedQuery queries[] = {{static_cast<std::uint32_t>(entry), query.reach_steps}};
+        const TileGrowth again = cloud.grow(points, queries);
+        add(again, cloud, growth, all);
+        if (again.unproven.empty()) break;
+        RC_ASSERT(again.unproven[0].reach_steps > query.reach_steps);
+        query = again.unproven[0];
+      }
     }
   }
   all.grown = growth.finish();

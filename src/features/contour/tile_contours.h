@@ -10,12 +10,18 @@
 namespace arris {
 
 /// A query whose support could not be proven to lie inside TilePoints::covered. Running it again on points that cover
-/// the ball of `reach_steps` around `position` is guaranteed to prove it.
+/// the ball of `reach_steps` around `position` proves it, or (region growing) tells a greater reach that will.
 struct UnprovenQuery {
   std::uint64_t id = 0;
   LatticePoint position;
   std::int64_t reach_steps =
-      0;  ///< Chebyshev reach: the box position +- reach must be covered. At most ceil(R_max) + 1.
+      0;  ///< Chebyshev reach: the box position +- reach must be covered.
+};
+
+/// An entry of a tile to ask about, of which space is known so far around it.
+struct PlacedQuery {
+  std::uint32_t entry = 0;
+  std::int64_t reach_steps = 0;  ///< The box position +- reach is covered.
 };
 
 struct TileContours {

@@ -1,12 +1,15 @@
 #include "features/segment/tile_growth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <unordered_map>
 
 #include "core/disjoint_sets.h"
 #include "core/parallel.h"
 #include "features/neighbourhood/point_tree.h"
 #include "features/segment/likeness.h"
+#include "features/segment/support_proof.h"
 #include "features/segment/tile_neighbourhoods.h"
 
 namespace arris {
@@ -18,10 +21,11 @@ constexpr std::size_t kGrain = 4096;
 class Grower {
  public:
   Grower(const TilePoints& tile, std::span<const std::uint8_t> intensities, const Lattice& lattice,
-         const SegmentParameters& parameters, std::optional<std::span<const std::uint32_t>> queries)
+         const SegmentParameters& parameters, std::optional<std::span<const PlacedQuery>> queries)
       : parameters_(parameters),
+        covered_(tile.covered),
         tree_(tile.positions, tile.ids),
-        points_(tree_, tile.covered, lattice, parameters),
+        points_(tree_, lattice, parameters),
         is_query_(tree_.size()),
         intensities_(slot_intensities(intensities)),
         likeness_(points_, intensities_, parameters) {
@@ -49,14 +53,20 @@ class Grower {
     return of_slot;
   }
 
-  void choose_queries(const TilePoints& tile, std::optional<std::span<const std::uint32_t>> queries) {
-    std::vector<std::uint8_t> listed;
-    if (queries) {
-      listed.resize(tree_.size());
-      for (const std::uint32_t entry : *queries) listed[entry] = 1;
+  void choose_queries(const TilePoints& tile, std::optional<std::span<const PlacedQuery>> queries) {
+    if (!queries) {
+      for (std::size_t slot = 0; slot < tree_.size(); ++slot)
+        is_query_[slot] = tile.core.contains(tree_.position(slot));
+      return;
     }
-    for (std::size_t slot = 0; slot < tree_.size(); ++slot)
-      is_query_[slot] = queries ? listed[tree_.entry(slot)] : tile.core.contains(tree_.position(slot));
+    std::unordered_map<std::uint32_t, std::int64_t> listed;
+    for (const PlacedQuery& query : *queries) listed.emplace(query.entry, query.reach_steps);
+    for (std::uint32_t slot = 0; slot < tree_.size(); ++slot) {
+      const auto found = listed.find(tree_.entry(slot));
+      if (found == listed.end()) continue;
+      is_query_[slot] = 1;
+      reach_.emplace_back(slot, found->second);
+    }
   }
 
   template <class Use>
@@ -83,56 +93,51 @@ class Grower {
     }
   }
 
-  /// Those that are bad, or have a neighbour that is.
-  std::vector<std::uint8_t> with_bad_neighbours(const std::vector<std::uint8_t>& bad) const {
-    std::vector<std::uint8_t> wider = bad;
-    parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        for (const std::uint32_t neighbour : points_.neighbours(static_cast<std::uint32_t>(i)))
-          wider[i] |= bad[neighbour];
-      }
-    });
-    return wider;
-  }
-
   /// Queries whose support is not whole are none from here on.
   void settle_unproven() {
-    std::vector<std::uint8_t> bad(tree_.size());
-    bool any = false;
-    for (std::uint32_t slot = 0; slot < tree_.size(); ++slot) {
-      bad[slot] = points_.state(slot) == ShapeState::kUnproven;
-      any |= bad[slot] != 0;
-    }
-    if (!any) return;
-    for (int ring = 0; ring < rings(); ++ring) bad = with_bad_neighbours(bad);
-    for (std::uint32_t slot = 0; slot < tree_.size(); ++slot) {
-      if (!bad[slot] || !is_query_[slot]) continue;
+    const SupportProof proof(tree_, points_, rings());
+    const auto leave = [&](std::uint32_t slot, double reach_steps) {
       is_query_[slot] = 0;
-      // If its neighbours lie within d, theirs lie within 2 d of them and so within 3 d of it; those of these within
-      // 4 d of them, 7 d of it. (Balls around a neighbour that hold the ball around the point hold enough points.)
-      const double d = points_.reach_of(slot);
-      const double reach = rings() == 1 ? std::min(3.0 * d, 2.0 * max_reach()) : std::min(7.0 * d, 3.0 * max_reach());
       growth_.unproven.push_back(
-          {tree_.id(slot), tree_.position(slot), static_cast<std::int64_t>(std::ceil(reach * (1.0 + 1e-9))) + 1});
+          {tree_.id(slot), tree_.position(slot), static_cast<std::int64_t>(std::ceil(reach_steps * (1.0 + 1e-9))) + 1});
+    };
+    if (reach_.empty()) {
+      for (const std::uint32_t slot : proof.unproven(is_query_, covered_)) leave(slot, proof.reach(slot, covered_));
+    }
+    for (const auto& [slot, reach] : reach_) {
+      const LatticePoint p = tree_.position(slot);
+      const LatticeBox box{{p.x - reach, p.y - reach, p.z - reach},
+                           {p.x + reach + 1, p.y + reach + 1, p.z + reach + 1}};
+      if (const double needed = proof.reach(slot, box); needed > 0.0) leave(slot, needed);
     }
     std::sort(growth_.unproven.begin(), growth_.unproven.end(),
               [](const UnprovenQuery& a, const UnprovenQuery& b) { return a.id < b.id; });
   }
-  double max_reach() const { return points_.max_reach_steps(); }
+
+  std::uint8_t median_intensity(std::uint32_t slot) const {
+    std::array<std::uint8_t, kMostNeighbours + 1> values;
+    std::size_t count = 0;
+    std::uint8_t least = 255, most = 0;
+    const auto take = [&](std::uint8_t value) {
+      values[count++] = value;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    };
+    take(intensities_[slot]);
+    for (const std::uint32_t neighbour : points_.neighbours(slot)) take(intensities_[neighbour]);
+    if (least == most) return least;
+    const auto middle = values.begin() + count / 2;
+    std::nth_element(values.begin(), middle, values.begin() + count);
+    return *middle;
+  }
 
   /// Every point gets the median of its surroundings: noise goes, the borders of materials stay where they are.
   void smooth_intensities() {
     std::vector<std::uint8_t> smooth = intensities_;
     parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
-      std::vector<std::uint8_t> values;
       for (std::size_t i = first; i < last; ++i) {
         const auto slot = static_cast<std::uint32_t>(i);
-        if (points_.state(slot) != ShapeState::kShaped) continue;
-        values.assign(1, intensities_[slot]);
-        for (const std::uint32_t neighbour : points_.neighbours(slot)) values.push_back(intensities_[neighbour]);
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), middle, values.end());
-        smooth[slot] = *middle;
+        if (points_.state(slot) == ShapeState::kShaped) smooth[slot] = median_intensity(slot);
       }
     });
     intensities_.swap(smooth);
@@ -249,10 +254,12 @@ class Grower {
   }
 
   const SegmentParameters& parameters_;
+  const LatticeBox& covered_;
   PointTree tree_;
   TileNeighbourhoods points_;
   std::vector<std::uint8_t> is_query_;
-  std::vector<std::uint8_t> intensities_;  ///< Per slot.
+  std::vector<std::pair<std::uint32_t, std::int64_t>> reach_;  ///< Slot and reach of listed queries.
+  std::vector<std::uint8_t> intensities_;                      ///< Per slot.
   Likeness likeness_;
   std::vector<std::uint8_t> grows_;
   DisjointSets sets_;
@@ -265,15 +272,16 @@ class Grower {
 }  // namespace
 
 TileGrowth grow_tile(const TilePoints& tile, std::span<const std::uint8_t> intensities, const Lattice& lattice,
-                     const SegmentParameters& parameters, std::optional<std::span<const std::uint32_t>> queries) {
+                     const SegmentParameters& parameters, std::optional<std::span<const PlacedQuery>> queries) {
   if (tile.positions.empty()) return {};
   return Grower(tile, intensities, lattice, parameters, queries).run();
 }
 
 double growth_bytes_per_point(const SegmentParameters& parameters) {
-  // Tree 27, shapes and states 22, flags, sets and components 14, members 16; neighbours, and where all points are
-  // frontier, as many words again.
-  return 27.0 + 22.0 + 14.0 + 16.0 + 16.0 + 8.0 * static_cast<double>(parameters.most_neighbours());
+  // Tree 27, shapes, counts and states 18, flags and intensities 9, sets and components 8, members 16; neighbours; and
+  // frontier records where half of the points are frontier.
+  const double k = static_cast<double>(parameters.most_neighbours());
+  return 27.0 + 18.0 + 9.0 + 8.0 + 16.0 + 4.0 * k + 0.5 * (16.0 + 4.0 * k);
 }
 const double kGrowthBytesPerThread = 3.0 * 1024 * 1024;
 

@@ -56,12 +56,14 @@ struct TileGrowth {
 };
 
 /// @param intensities  0 to 255 per entry of tile.positions, or empty.
-/// @param queries      entries; without, the points of tile.core.
+/// @param queries      entries, each with the part of space that is covered around it; without, the points of
+/// tile.core,
+///                     and tile.covered is.
 /// Runs in parallel. The bits of the union of all tiles' results depend on points, intensities and parameters only, but
 /// for the numbers of components.
 TileGrowth grow_tile(const TilePoints& tile, std::span<const std::uint8_t> intensities, const Lattice& lattice,
                      const SegmentParameters& parameters,
-                     std::optional<std::span<const std::uint32_t>> queries = std::nullopt);
+                     std::optional<std::span<const PlacedQuery>> queries = std::nullopt);
 
 /// Bytes beyond the tile itself, for predictions.
 double growth_bytes_per_point(const SegmentParameters& parameters);

@@ -34,11 +34,7 @@ class TileNeighbourhoods::Runner {
   void take(std::uint32_t slot, const Neighbours& found) {
     all_.counts_[slot] = static_cast<std::uint8_t>(found.count);
     std::copy_n(found.slot.begin(), found.count, all_.slots_.get() + slot * all_.stride_);
-    const double needed =
-        found.count == all_.stride_ ? std::sqrt(static_cast<double>(found.last_d2)) * (1.0 + 1e-12) : all_.reach_steps_;
-    if (!(needed < static_cast<double>(all_.covered_.depth(all_.tree_.position(slot))))) {
-      all_.states_[slot] = ShapeState::kUnproven;
-    } else if (found.count < kLeastNeighbours) {
+    if (found.count < kLeastNeighbours) {
       all_.states_[slot] = ShapeState::kIsolated;
     } else {
       batches_.add(slot, found, [&](auto&&... arguments) { put(arguments...); });
@@ -54,10 +50,9 @@ class TileNeighbourhoods::Runner {
   ShapeBatches batches_;
 };
 
-TileNeighbourhoods::TileNeighbourhoods(const PointTree& tree, const LatticeBox& covered, const Lattice& lattice,
+TileNeighbourhoods::TileNeighbourhoods(const PointTree& tree, const Lattice& lattice,
                                        const SegmentParameters& parameters)
     : tree_(tree),
-      covered_(covered),
       parameters_(parameters),
       stride_(parameters.most_neighbours()),
       reach_steps_(parameters.reach() / lattice.step),
@@ -84,7 +79,7 @@ void TileNeighbourhoods::compute(const std::vector<std::uint8_t>& wanted) {
 }
 
 double TileNeighbourhoods::reach_of(std::uint32_t slot) const {
-  if (counts_[slot] < stride_) return reach_steps_;
+  if (!full(slot)) return reach_steps_;
   const std::uint32_t last = neighbours(slot).back();
   return std::sqrt(static_cast<double>(squared_distance(tree_.position(slot), tree_.position(last)))) * (1.0 + 1e-12);
 }

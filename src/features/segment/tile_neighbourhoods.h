@@ -23,27 +23,27 @@ enum class ShapeState : std::uint8_t {
   kUnasked,
   kShaped,    ///< Has a normal.
   kIsolated,  ///< Has none: fewer than 3 neighbours within reach, or all of them on a line with it.
-  kUnproven,  ///< Neighbours may lie outside of what the tile covers.
 };
 
 /// Points go by their slots in the tree. Memory: 4 bytes per neighbour and 22 per slot. Bits of what is found depend on
 /// the points within twice the reach and the parameters only. compute() runs in parallel; reading is thread-safe.
 class TileNeighbourhoods {
  public:
-  /// All arguments must outlive this. @param covered  complete part of space.
-  TileNeighbourhoods(const PointTree& tree, const LatticeBox& covered, const Lattice& lattice,
-                     const SegmentParameters& parameters);
+  /// All arguments must outlive this. What is found is right for points whose ball of reach_of() lies in complete
+  /// space.
+  TileNeighbourhoods(const PointTree& tree, const Lattice& lattice, const SegmentParameters& parameters);
 
   /// Computes the slots whose state is kUnasked and whose `wanted` is not 0.
   void compute(const std::vector<std::uint8_t>& wanted);
 
   ShapeState state(std::uint32_t slot) const { return states_[slot]; }
   const PointShape& shape(std::uint32_t slot) const { return shapes_[slot]; }
-  /// By (distance, id). Those found so far where the state is kUnproven.
+  /// By (distance, id).
   std::span<const std::uint32_t> neighbours(std::uint32_t slot) const {
     return {slots_.get() + std::size_t{slot} * stride_, counts_[slot]};
   }
-  /// Distance in steps within which the neighbours must lie, from those found so far; the reach if they are too few.
+  bool full(std::uint32_t slot) const { return counts_[slot] == stride_; }  ///< As many as asked for.
+  /// Distance in steps within which the neighbours must lie, from those found; max_reach_steps() if they are too few.
   double reach_of(std::uint32_t slot) const;
   double max_reach_steps() const { return reach_steps_; }
 
@@ -51,7 +51,6 @@ class TileNeighbourhoods {
   class Runner;
 
   const PointTree& tree_;
-  const LatticeBox& covered_;
   const SegmentParameters& parameters_;
   std::size_t stride_;
   double reach_steps_;

@@ -1,0 +1,83 @@
+#include "features/segment/support_proof.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+
+namespace arris {
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+/// Rounding of a distance must not make a ball too small.
+constexpr double kRound = 1.0 + 1e-12;
+/// Where too few neighbours are in sight, the next look goes this many times as far.
+constexpr double kFarther = 2.0;
+
+}  // namespace
+
+double SupportProof::distance(std::uint32_t a, std::uint32_t b) const {
+  return std::sqrt(static_cast<double>(squared_distance(tree_.position(a), tree_.position(b)))) * kRound;
+}
+
+/// Those that are bad, or have a neighbour that is.
+std::vector<std::uint8_t> SupportProof::with_bad_neighbours(const std::vector<std::uint8_t>& bad) const {
+  std::vector<std::uint8_t> wider = bad;
+  parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      for (const std::uint32_t neighbour : points_.neighbours(static_cast<std::uint32_t>(i)))
+        wider[i] |= bad[neighbour];
+    }
+  });
+  return wider;
+}
+
+std::vector<std::uint32_t> SupportProof::unproven(const std::vector<std::uint8_t>& is_query,
+                                                  const LatticeBox& covered) const {
+  std::vector<std::uint8_t> bad(tree_.size());
+  parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const auto slot = static_cast<std::uint32_t>(i);
+      bad[i] = points_.state(slot) != ShapeState::kUnasked && !inside(slot, points_.reach_of(slot), covered);
+    }
+  });
+  std::vector<std::uint32_t> slots;
+  if (std::find(bad.begin(), bad.end(), 1) == bad.end()) return slots;
+  for (int ring = 0; ring < rings_; ++ring) bad = with_bad_neighbours(bad);
+  for (std::uint32_t slot = 0; slot < tree_.size(); ++slot)
+    if (is_query[slot] && bad[slot]) slots.push_back(slot);
+  return slots;
+}
+
+double SupportProof::reach(std::uint32_t slot, const LatticeBox& covered) const {
+  const double most = points_.max_reach_steps();
+  const double own = points_.reach_of(slot);
+  if (!inside(slot, own, covered)) {
+    if (points_.full(slot)) return own;
+    return std::min(most, kFarther * static_cast<double>(covered.depth(tree_.position(slot))));
+  }
+  struct Ball {
+    std::uint32_t slot;
+    double radius;
+  };
+  std::vector<Ball> ring{{slot, own}};
+  for (int i = 0; i < rings_; ++i) {
+    double reach = 0.0;
+    bool whole = true;
+    std::vector<Ball> next;
+    for (const Ball& ball : ring) {
+      for (const std::uint32_t neighbour : points_.neighbours(ball.slot)) {
+        const double bound = std::min(most, distance(ball.slot, neighbour) + ball.radius);
+        const double radius = std::min(points_.reach_of(neighbour), bound);
+        whole = whole && inside(neighbour, radius, covered);
+        reach = std::max(reach, distance(slot, neighbour) + radius);
+        next.push_back({neighbour, radius});
+      }
+    }
+    if (!whole) return reach;
+    ring = std::move(next);
+  }
+  return 0.0;
+}
+
+}  // namespace arris

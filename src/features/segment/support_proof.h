@@ -1,0 +1,40 @@
+#pragma once
+/// @file Whether all that a point's growth depends on was seen.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/lattice.h"
+#include "features/neighbourhood/point_tree.h"
+#include "features/segment/tile_neighbourhoods.h"
+
+namespace arris {
+
+/// The support of a query is the balls that hold its neighbours, their neighbours, and so on for `rings` rings. Found
+/// neighbours bound where the true ones are: they cannot be farther.
+class SupportProof {
+ public:
+  SupportProof(const PointTree& tree, const TileNeighbourhoods& points, int rings)
+      : tree_(tree), points_(points), rings_(rings) {}
+
+  /// Queries whose support is not inside of `covered`, ascending. O(points).
+  std::vector<std::uint32_t> unproven(const std::vector<std::uint8_t>& is_query, const LatticeBox& covered) const;
+
+  /// 0 if the support of the query lies inside of `covered`. Else how far around it space must be covered to see the
+  /// first ring that is not, steps: more than now. Repeated, that ends after a few rounds, because no neighbour's ball
+  /// is larger than the distance to it and the radius of the ball around the point itself together.
+  double reach(std::uint32_t slot, const LatticeBox& covered) const;
+
+ private:
+  bool inside(std::uint32_t slot, double radius, const LatticeBox& covered) const {
+    return radius < static_cast<double>(covered.depth(tree_.position(slot)));
+  }
+  double distance(std::uint32_t a, std::uint32_t b) const;
+  std::vector<std::uint8_t> with_bad_neighbours(const std::vector<std::uint8_t>& bad) const;
+
+  const PointTree& tree_;
+  const TileNeighbourhoods& points_;
+  int rings_;
+};
+
+}  // namespace arris
