@@ -1,5 +1,5 @@
 #pragma once
-/// @file Geometries as GeoPackage keeps them (OGC 12-128r18, clause 2.1.3): a header with an envelope, and ISO WKB.
+/// @file Geometries as GeoPackage keeps them (OGC 12-128r17, clause 2.1.3): a header with an envelope, and ISO WKB.
 
 #include <array>
 #include <cstddef>

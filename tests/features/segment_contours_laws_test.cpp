@@ -199,6 +199,24 @@ TEST(SegmentContours, NumberOfThreads_ChangesNothing) {
   EXPECT_EQ(found[0].edges, found[1].edges);
 }
 
+TEST(SegmentContours, PlanesWithoutSpacing_GiveFiniteNumbers) {
+  const TilePoints tile = tile_of(test::random_positions(Shape::kGridFold, 400, 400.0, 3), 3);
+  const test::Supervoxels made = test::cubic_supervoxels(tile.positions, 200, 40);
+  const std::vector<SegmentPlane> planes = test::planes_of(tile.positions, made.labels, 0.0);
+  for (const ContourRecord& record : analyse_segment_contours(tile, made.labels, planes, kMillimetres, {}).records) {
+    EXPECT_TRUE(record.score >= 0.0F && record.score <= 1.0F);
+    EXPECT_TRUE(std::isfinite(record.gap_deg) && std::isfinite(record.fold_angle_deg));
+  }
+}
+
+TEST(SegmentContours, EmptyTile_FindsNothing) {
+  TilePoints tile;
+  tile.core = tile.covered = everything();
+  const SegmentContours contours = analyse_segment_contours(tile, {}, {}, kMillimetres, {});
+  EXPECT_TRUE(contours.records.empty());
+  EXPECT_TRUE(contours.edges.empty());
+}
+
 TEST(SegmentContourParameters, ValuesOutOfRange_AreRefusedByName) {
   const auto message = [](auto change) -> std::string {
     SegmentContourParameters p;

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
+#include <string>
 
 #include "features/planar/alpha_edges.h"
 #include "merge/outline_plane.h"

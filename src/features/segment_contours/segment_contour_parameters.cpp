@@ -53,6 +53,7 @@ SegmentLengths segment_lengths(const SegmentPlane& plane, const Lattice& lattice
   constexpr double kUnit = static_cast<double>(std::int64_t{1} << kFrameBits);
   SegmentLengths l;
   l.spacing = p.most_spacing > 0.0 ? std::min(plane.spacing, p.most_spacing / lattice.step) : plane.spacing;
+  l.spacing = std::max(l.spacing, 1.0 / kUnit);  // Planes of nothing divide nothing by 0.
   l.two_alpha = std::floor(2.0 * p.alpha_factor * l.spacing * kUnit) / kUnit;
   const double alpha = 0.5 * l.two_alpha;
   l.slab = std::clamp(kSlabRms * plane.rms, alpha, kMostSlabAlphas * alpha);

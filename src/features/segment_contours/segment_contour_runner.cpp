@@ -44,9 +44,8 @@ void SegmentContourRunner::run_segment(std::span<const Query> run, const ClosedB
       meetings_.push_back(meeting);
     }
   }
-  own_.begin(task_, label);
-  own_.add(task_, group_, *group_.part(label));
-  own_.expect(box);
+  own_.begin(label, box);
+  own_.add(*group_.part(label));
   joined_known_ = false;
   for (const Query& query : run) {
     const SegmentFold fold = task_.parameters.fold || task_.parameters.boundary ? best_fold(query.slot) : SegmentFold{};
@@ -80,17 +79,16 @@ double SegmentContourRunner::border_deg(const Vector3& at, const ClosedBox& box)
   if (own_deg == 0.0 || continue_.empty()) return own_deg;
   if (!joined_known_) {
     const std::uint32_t label = own_.label();
-    joined_.begin(task_, label);
-    joined_.add(task_, group_, *group_.part(label));
-    for (const std::uint32_t other : continue_) joined_.add(task_, group_, *group_.part(other));
-    joined_.expect(box);
+    joined_.begin(label, box);
+    joined_.add(*group_.part(label));
+    for (const std::uint32_t other : continue_) joined_.add(*group_.part(other));
     joined_known_ = true;
   }
   return joined_.exposure_deg(at);
 }
 
 void SegmentContourRunner::add_edges(std::uint32_t slot) {
-  for (const PlanarNeighbour& target : own_.edges(task_, group_, slot)) {
+  for (const PlanarNeighbour& target : own_.edges(slot)) {
     edges_.push_back({own_.label(), task_.tree.id(slot), task_.tree.id(target.index), task_.tree.position(slot),
                       task_.tree.position(target.index)});
   }

@@ -16,7 +16,9 @@ namespace arris {
 /// Not thread-safe; make one per chunk.
 class SegmentContourRunner {
  public:
-  explicit SegmentContourRunner(const SegmentTask& task) : task_(task) {}
+  explicit SegmentContourRunner(const SegmentTask& task) : task_(task), own_(task_, group_), joined_(task_, group_) {}
+  SegmentContourRunner(const SegmentContourRunner&) = delete;
+  SegmentContourRunner& operator=(const SegmentContourRunner&) = delete;
 
   /// `slots`: queries that are close together, in tree order.
   void run(std::span<const std::uint32_t> slots);

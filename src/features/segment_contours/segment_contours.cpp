@@ -8,7 +8,7 @@
 
 namespace arris {
 
-/// The tree and the labels in its order (31), building it (16), and records, found points (104 each) and edges (56 and
+/// The tree and the labels in its order (31), building it (16), and records, found points (104 each) and edges (48 and
 /// as much again while the vector grows) of scans that are contours in one point of five at most.
 const double kSegmentContourBytesPerPoint = 96.0;
 const double kSegmentContourBytesPerThread = 4.0 * 1024 * 1024;

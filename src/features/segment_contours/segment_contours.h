@@ -31,7 +31,7 @@ struct SegmentContours {
 
 /// @param labels  segment per entry of tile.positions, 0: none; no label is greater than planes.size().
 /// The tile must be covered segment_contour_halo() around its core. Runs in parallel; bits depend on points, labels,
-/// planes and parameters only. About 0.5 microseconds a point where nothing happens. Throws ConfigError as validate().
+/// planes and parameters only. About a microsecond a point. Throws ConfigError as validate().
 SegmentContours analyse_segment_contours(const TilePoints& tile, std::span<const std::uint32_t> labels,
                                          std::span<const SegmentPlane> planes, const Lattice& lattice,
                                          const SegmentContourParameters& parameters);

@@ -7,10 +7,9 @@
 namespace arris {
 namespace {
 
-/// Points beside the expected box up to this share of its largest side are tried first.
+/// Points beside the box up to this share of its largest side are tried first: what some neighbours block stays
+/// blocked.
 constexpr double kNearShare = 0.4;
-/// Fewer points than this are not worth a selection.
-constexpr std::size_t kFewPoints = 64;
 
 }  // namespace
 
@@ -20,27 +19,12 @@ void ShapeProjection::Columns::make_room(std::size_t count) {
   slot.resize(count);
 }
 
-void ShapeProjection::begin(const SegmentTask& task, std::uint32_t label) {
+void ShapeProjection::begin(std::uint32_t label, const ClosedBox& box) {
   label_ = label;
-  frame_ = plane_frame(task.plane(label).normal);
-  lengths_ = task.lengths(label);
-  all_.size = near_.size = 0;
-}
-
-void ShapeProjection::add(const SegmentTask& task, const LabelledGroup& group, const LabelledPart& part) {
-  all_.make_room(all_.size + (part.end - part.begin));
-  for (std::size_t i = part.begin; i < part.end; ++i) {
-    if (std::fabs(task.distance(label_, group.slot(i))) > lengths_.slab) continue;
-    const Vector3 p = group.at(i);
-    all_.a[all_.size] = dot(frame_.u, p);
-    all_.b[all_.size] = dot(frame_.v, p);
-    all_.slot[all_.size++] = group.slot(i);
-  }
-}
-
-void ShapeProjection::expect(const ClosedBox& box) {
-  near_.size = 0;
-  if (all_.size < kFewPoints) return;
+  frame_ = plane_frame(task_.plane(label).normal);
+  lengths_ = task_.lengths(label);
+  near_.size = all_.size = 0;
+  pending_.clear();
   double diagonal2 = 0.0;
   double longest = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -48,15 +32,32 @@ void ShapeProjection::expect(const ClosedBox& box) {
     diagonal2 += side * side;
     longest = std::max(longest, side);
   }
-  const double radius = 0.5 * std::sqrt(diagonal2) + kNearShare * longest;
-  near_.make_room(all_.size);
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < all_.size; ++i) {
-    near_.a[n] = all_.a[i];
-    near_.b[n] = all_.b[i];
-    n += all_.a[i] * all_.a[i] + all_.b[i] * all_.b[i] < radius * radius;
+  near_radius_ = 0.5 * std::sqrt(diagonal2) + kNearShare * longest;
+}
+
+void ShapeProjection::project(std::size_t index, Columns& points) const {
+  if (std::fabs(task_.distance(label_, group_.slot(index))) > lengths_.slab) return;
+  const Vector3 p = group_.at(index);
+  points.a[points.size] = dot(frame_.u, p);
+  points.b[points.size] = dot(frame_.v, p);
+  points.slot[points.size++] = group_.slot(index);
+}
+
+void ShapeProjection::add(const LabelledPart& part) {
+  pending_.push_back(part);
+  near_.make_room(near_.size + (part.end - part.begin));
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    const Vector3 p = group_.at(i);
+    if (dot(p, p) < near_radius_ * near_radius_) project(i, near_);
   }
-  near_.size = n;
+}
+
+void ShapeProjection::complete() {
+  for (const LabelledPart& part : pending_) {
+    all_.make_room(all_.size + (part.end - part.begin));
+    for (std::size_t i = part.begin; i < part.end; ++i) project(i, all_);
+  }
+  pending_.clear();
 }
 
 void ShapeProjection::find_neighbours(const Columns& points, const Vector3& at) {
@@ -78,22 +79,22 @@ void ShapeProjection::find_neighbours(const Columns& points, const Vector3& at) 
 }
 
 bool ShapeProjection::surely_inside(const Vector3& at) {
-  if (near_.size > 0) {
-    find_neighbours(near_, at);
-    if (exposed_.surely_blocked(neighbours_)) return true;
-  }
+  find_neighbours(near_, at);
+  if (exposed_.surely_blocked(neighbours_)) return true;
+  complete();
   find_neighbours(all_, at);
   return exposed_.surely_blocked(neighbours_);
 }
 
 double ShapeProjection::exposure_deg(const Vector3& at) {
+  complete();
   find_neighbours(all_, at);
   return exposed_(neighbours_);
 }
 
-const std::vector<PlanarNeighbour>& ShapeProjection::edges(const SegmentTask& task, const LabelledGroup& group,
-                                                           std::uint32_t slot) {
-  const Vector3 at = group.relative(task.tree, slot);
+const std::vector<PlanarNeighbour>& ShapeProjection::edges(std::uint32_t slot) {
+  complete();
+  const Vector3 at = group_.relative(task_.tree, slot);
   const double a = dot(frame_.u, at);
   const double b = dot(frame_.v, at);
   around_.clear();
@@ -102,13 +103,13 @@ const std::vector<PlanarNeighbour>& ShapeProjection::edges(const SegmentTask& ta
     const double db = all_.b[i] - b;
     if (std::max(std::fabs(da), std::fabs(db)) > lengths_.two_alpha) continue;
     if (da == 0.0 && db == 0.0) {
-      if (task.tree.id(all_.slot[i]) < task.tree.id(slot)) return none_;
+      if (task_.tree.id(all_.slot[i]) < task_.tree.id(slot)) return none_;
       continue;
     }
     around_.push_back({frame_units(da), frame_units(db), all_.slot[i]});
   }
   std::sort(around_.begin(), around_.end(), [&](const PlanarNeighbour& p, const PlanarNeighbour& q) {
-    return std::make_tuple(p.x, p.y, task.tree.id(p.index)) < std::make_tuple(q.x, q.y, task.tree.id(q.index));
+    return std::make_tuple(p.x, p.y, task_.tree.id(p.index)) < std::make_tuple(q.x, q.y, task_.tree.id(q.index));
   });
   const auto same = [](const PlanarNeighbour& p, const PlanarNeighbour& q) { return p.x == q.x && p.y == q.y; };
   around_.erase(std::unique(around_.begin(), around_.end(), same), around_.end());
