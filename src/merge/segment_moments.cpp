@@ -41,7 +41,7 @@ SegmentPlane SegmentMoments::plane(std::uint32_t segment) const {
   SegmentPlane plane;
   if (s.points == 0) return plane;
   const double n = static_cast<double>(s.points);
-  // The second moments about the mean, n^2 times: differences of integers of 128 bits, where they fit, are exact.
+  // About an origin that is a point of the segment, which leaves the differences enough digits.
   std::array<double, 3> mean{};
   for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] = static_cast<double>(s.first[axis]) / n;
   const auto moment = [&](std::size_t i, std::size_t a, std::size_t b) {

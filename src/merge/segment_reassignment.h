@@ -1,5 +1,5 @@
 #pragma once
-/// @file Points near the borders of segments go to the planes they are nearest to (Yu et al., section 3.3).
+/// @file Points near the borders of segments go to the planes they are nearest to (Yu et al.).
 
 #include <cstdint>
 #include <filesystem>

@@ -72,6 +72,8 @@ void check_request(const SegmentRequest& request) {
   check_outline_output(request.outlines, "--outlines", request.overwrite);
   validate(request.parameters);
   validate(request.shape);
+  if (request.parameters.published && request.parameters.agreement)
+    throw ConfigError("--agreement has no meaning with --as-published; leave one out");
 }
 
 std::vector<ColumnSpec> columns_of(const SegmentRequest& request) {
@@ -158,6 +160,8 @@ SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, con
   ProblemWarnings problems(inputs, sink);
   problems.forward();
   Writers writers = open_writers(request, inputs, columns_of(request), true, report);
+  for (const std::filesystem::path& path : {request.table, request.outlines})
+    if (!path.empty()) report.outputs.push_back(path.string());
   const IntensityTable intensities = choose_points(inputs, request, report, watch, sink, cancel);
 
   tiling::Survey survey = tiling::survey_inputs(inputs, {request.lattice_step}, sink, cancel);

@@ -17,7 +17,7 @@ nlohmann::ordered_json segment_json(const SegmentParameters& p) {
   json["intensity"] = p.intensity;
   json["intensity_step"] = p.least_intensity_step();
   json["curvature"] = p.curvature;
-  json["agreement"] = p.agreement;
+  json["agreement"] = p.least_agreement();
   json["min_points"] = p.min_points;
   json["sweeps"] = p.sweep_count();
   json["reassign_distance"] = p.reassign_distance;
@@ -38,6 +38,9 @@ nlohmann::ordered_json to_json(const SegmentReport& r) {
                     {"labelled", r.labelled},     {"isolated", r.isolated},      {"frontier", r.frontier},
                     {"reassigned", r.reassigned}, {"widened", r.widened_queries}};
   json["segments"] = r.segments;
+  json["contour_parameters"] = {{"alpha_factor", r.shape.alpha_factor},
+                                {"fold_angle_deg", r.shape.fold_angle_deg},
+                                {"most_spacing", r.shape.most_spacing}};
   json["contours"] = {{"boundary", r.boundary}, {"fold", r.fold}};
   json["tiles"] = {{"count", r.tiles}, {"largest_points", r.largest_tile_points}, {"workers", r.tile_workers}};
   append_report_tail(json, r);

@@ -31,8 +31,11 @@ class Widener {
     std::optional<TilePoints> points = collect(queries);
     if (!points) {
       if (queries.size() == 1) {
+        const std::uint64_t among = count(queries);
         throw BudgetError(
-            fmt::format("point {} needs more neighbours than the memory budget holds; raise --memory", queries[0].id));
+            fmt::format("the neighbours of point {} lie among {} points that must be seen together; run with at "
+                        "least --memory {}",
+                        queries[0].id, grouped(among), human_bytes(least_budget_bytes(among, job_.memory_request))));
       }
       const std::size_t half = queries.size() / 2;
       answer(queries.first(half));
@@ -64,6 +67,24 @@ class Widener {
       if (query.reach_steps <= reach_of.at(query.id))
         throw IoError("internal: a query stayed unproven on complete support; please report this");
     }
+  }
+
+  std::uint64_t count(std::span<const UnprovenQuery> queries) {
+    tiling::QueryRegions regions;
+    for (const UnprovenQuery& query : queries) regions.add(query.position, query.reach_steps);
+    std::uint64_t points = 0;
+    std::vector<LatticePoint> no_positions;
+    std::vector<std::uint64_t> no_ids;
+    for (std::size_t tile = 0; tile < job_.tiles.tiles.size(); ++tile) {
+      if (!regions.touches(job_.tiles.tiles[tile].core)) continue;
+      const auto counted = [&](const LatticePoint& p) {
+        points += regions.contains(p);
+        return false;
+      };
+      store_.load_core(tile, counted, no_positions, no_ids,
+                       [&](const LatticeBox& box) { return regions.touches(box); });
+    }
+    return points;
   }
 
   /// The points in reach of the queries, or nothing if there are too many.

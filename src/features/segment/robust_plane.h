@@ -1,5 +1,5 @@
 #pragma once
-/// @file Planes through neighbourhoods that do not follow the outliers (Yu et al., eq. of section 3.1, after Rusu).
+/// @file Planes through neighbourhoods that do not follow the outliers (Yu et al., after Rusu).
 ///
 /// C = sum xi_i (p_i - m)(p_i - m)^T / sum xi_i with the weighted mean m; the normal belongs to the least eigenvalue.
 /// Start: least median of squares. xi = 1 within d_max of that plane; beyond, as published, exp(-d^2 / mu^2), mu being

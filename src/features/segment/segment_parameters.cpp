@@ -39,7 +39,8 @@ void validate(const SegmentParameters& p) {
   require(p.least_intensity_step() >= 1, "--intensity-step", p.least_intensity_step(), "at least 1");
   require(p.curvature > 0.0 && p.curvature <= 1.0, "--curvature", p.curvature, "above 0, at most 1");
   require(p.min_points >= 1, "--min-points", p.min_points, "at least 1");
-  require(p.agreement >= 0.0 && p.agreement <= 1.0, "--agreement", p.agreement, "between 0 and 1");
+  require(p.agreement.value_or(0.0) >= 0.0 && p.agreement.value_or(0.0) <= 1.0, "--agreement", *p.agreement,
+          "between 0 and 1");
   require(p.sweep_count() >= 0 && p.sweep_count() <= 10, "--sweeps", p.sweep_count(), "between 0 and 10");
   require(is_length(p.reassign_distance), "--reassign-distance", p.reassign_distance, "finite and not negative");
 }

@@ -22,8 +22,8 @@ struct SegmentParameters {
   double curvature = 0.2;         ///< Segments grow from points with a smaller sigma_p, (0, 1/3 and a little].
   std::uint32_t min_points = 20;  ///< Smaller segments are none, >= 1.
   /// Not as published: segments grow only from points that at least this share of their neighbours is like, [0, 1].
-  double agreement = 0.3;
-  std::optional<int> sweeps;  ///< Of the reassignment, 0 to 10; without: 2 as published, else 4.
+  std::optional<double> agreement;  ///< Without: 0.3.
+  std::optional<int> sweeps;        ///< Of the reassignment, 0 to 10; without: 2 as published, else 4.
   /// d_re: points farther from a segment's plane are not given to it; 0: max(3 RMS, kLeastReassign), at most
   /// kMostReassign, in spacings of the segment.
   double reassign_distance = 0.0;
@@ -34,6 +34,7 @@ struct SegmentParameters {
   /// Searches stop here: radius if given, else R_max.
   double reach() const { return radius > 0.0 && radius < max_radius ? radius : max_radius; }
   std::size_t most_neighbours() const;
+  double least_agreement() const { return published ? 0.0 : agreement.value_or(0.3); }
   int least_intensity_step() const { return intensity_step.value_or(published ? 10 : 20); }
   int sweep_count() const { return sweeps.value_or(published ? 2 : 4); }
   /// Smaller components are dropped before the reassignment. Not as published segments then gain the points that they

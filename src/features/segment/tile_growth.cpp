@@ -147,7 +147,7 @@ class Grower {
   bool agrees(std::uint32_t slot) const {
     const auto neighbours = points_.neighbours(slot);
     const auto needed =
-        static_cast<std::size_t>(std::ceil(parameters_.agreement * static_cast<double>(neighbours.size())));
+        static_cast<std::size_t>(std::ceil(parameters_.least_agreement() * static_cast<double>(neighbours.size())));
     std::size_t like = 0;
     for (std::size_t i = 0; i < neighbours.size() && like < needed; ++i)
       like += points_.state(neighbours[i]) == ShapeState::kShaped && likeness_.alike(slot, neighbours[i]);

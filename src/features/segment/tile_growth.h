@@ -1,5 +1,5 @@
 #pragma once
-/// @file Region growing in one tile (Yu et al., section 3.2), as connected components, so that no order matters.
+/// @file Region growing in one tile (Yu et al.), as connected components, so that no order matters.
 ///
 /// Two points are linked if one is among the other's neighbours, both can grow, and both are alike: the angle between
 /// their normals is below the limit and their intensities differ by less than the step. A point can grow if its sigma_p

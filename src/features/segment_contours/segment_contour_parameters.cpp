@@ -40,12 +40,12 @@ void validate(const SegmentContourParameters& p) {
   require_factor("--alpha-factor", p.alpha_factor, 1.0, "between 1 and 100");
   require(p.fold_angle_deg > 0.0 && p.fold_angle_deg < 90.0, "--fold-angle", p.fold_angle_deg,
           "between 0 and 90 degrees");
-  require_factor("--line-factor", p.line_factor, 0.1, "between 0.1 and 100");
-  require_factor("--support-factor", p.support_factor, 0.1, "between 0.1 and 100");
-  require(std::isfinite(p.most_spacing) && p.most_spacing >= 0.0, "--most-spacing", p.most_spacing,
+  require_factor("line_factor", p.line_factor, 0.1, "between 0.1 and 100");
+  require_factor("support_factor", p.support_factor, 0.1, "between 0.1 and 100");
+  require(std::isfinite(p.most_spacing) && p.most_spacing >= 0.0, "most_spacing", p.most_spacing,
           "finite and not negative");
   for (const double c : p.viewpoint) {
-    if (!std::isfinite(c)) throw ConfigError("--viewpoint must be three finite coordinates");
+    if (!std::isfinite(c)) throw ConfigError("the viewpoint must be three finite coordinates");
   }
 }
 
@@ -76,8 +76,8 @@ double segment_contour_halo(const SegmentContourParameters& parameters, std::spa
   for (const SegmentPlane& plane : planes) reach = std::max(reach, segment_lengths(plane, lattice, parameters).reach);
   if (!(reach <= kMostSteps)) {
     throw ConfigError(fmt::format(
-        "the contours of segments look {:.3g} lattice steps of {} around each point, more than 2^26: choose a smaller "
-        "--most-spacing or a larger lattice step",
+        "the contours of segments look {:.3g} lattice steps of {} around each point, more than 2^26: choose a "
+        "larger --lattice step",
         reach, lattice.step));
   }
   return reach * lattice.step;
