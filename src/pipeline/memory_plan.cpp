@@ -19,6 +19,8 @@ constexpr std::uint64_t kLeastSpoolBytes = 4 * kMiB;
 constexpr std::uint64_t kPassBytes = 48 * kMiB;
 /// Beyond this a larger tile saves nothing: its halo is already a few percent of its core.
 constexpr std::uint64_t kLargestTilePoints = 2'000'000;
+/// On top of the least budget that is named: what is resident differs from run to run.
+constexpr std::uint64_t kSpareBytes = 4 * kMiB;
 /// Kept free: the allocator's fragments and what predictions miss.
 constexpr double kSafety = 0.92;
 
@@ -45,7 +47,7 @@ std::uint64_t MemoryPlan::tile_bytes(std::uint64_t points) const {
 
 std::uint64_t least_budget_bytes(std::uint64_t points, const MemoryRequest& request) {
   const std::uint64_t needed = fixed_bytes(request, kLeastSpoolBytes) + bytes_of_tile(points, request.method);
-  return static_cast<std::uint64_t>(static_cast<double>(needed) / kSafety) + kMiB;
+  return static_cast<std::uint64_t>(static_cast<double>(needed) / kSafety) + kSpareBytes;
 }
 
 MemoryPlan plan_memory(const MemoryRequest& request) {

@@ -23,6 +23,8 @@ constexpr double kVoxelTempBytes = 36.0 + 80.0;
 /// Surfaces cut voxels off-centre: about this many per area of a voxel's face.
 constexpr double kVoxelsPerFace = 1.5;
 
+/// On top of the least budget that is named: what is resident differs from run to run.
+constexpr std::uint64_t kSpareBytes = 4 * kMiB;
 /// Per voxel: index and id.
 constexpr double kIndexBytes = 3.0 + 4.0;
 /// Per supervoxel: moments, table, neighbours.
@@ -42,7 +44,7 @@ VoxelMemory::VoxelMemory(std::uint64_t budget_bytes)
   if (usable_bytes_ < fixed + kLeastTableBytes) {
     throw BudgetError(fmt::format(
         "--memory {} is too small: this run needs at least {}", human_bytes(budget_bytes),
-        human_bytes(static_cast<std::uint64_t>(static_cast<double>(fixed + kLeastTableBytes) / kSafety) + kMiB)));
+        human_bytes(static_cast<std::uint64_t>(static_cast<double>(fixed + kLeastTableBytes) / kSafety) + kSpareBytes)));
   }
   table_bytes_ = std::clamp((usable_bytes_ - fixed) / 2, kLeastTableBytes, kMostTableBytes);
   index_bytes_ = usable_bytes_ - fixed - table_bytes_;

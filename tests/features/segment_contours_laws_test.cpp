@@ -232,7 +232,7 @@ TEST(SegmentContourParameters, ValuesOutOfRange_AreRefusedByName) {
   EXPECT_NE(message([](auto& p) { p.alpha_factor = 0.9; }).find("--alpha-factor"), std::string::npos);
   EXPECT_NE(message([](auto& p) { p.fold_angle_deg = 90.0; }).find("--fold-angle"), std::string::npos);
   EXPECT_NE(message([](auto& p) { p.most_spacing = std::nan(""); }).find("most_spacing"), std::string::npos);
-  EXPECT_NE(message([](auto& p) { p.viewpoint[1] = INFINITY; }).find("--viewpoint"), std::string::npos);
+  EXPECT_NE(message([](auto& p) { p.viewpoint[1] = INFINITY; }).find("viewpoint"), std::string::npos);
 }
 
 TEST(SegmentContourParameters, ReachBeyondTheLattice_IsRefused) {
