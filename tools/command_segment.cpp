@@ -30,9 +30,11 @@ struct SegmentCommand {
 std::string describe_segments(const pipeline::SegmentReport& r, const std::string& memory_why) {
   double seconds = 0.0;
   for (const auto& [phase, s] : r.seconds) seconds += s;
-  const std::string neighbours = r.parameters.radius > 0.0
-                                     ? fmt::format("neighbours within {:.4g}", r.parameters.radius)
-                                     : fmt::format("{} neighbours", r.parameters.neighbours);
+  const std::string neighbours =
+      r.parameters.radius > 0.0
+          ? fmt::format("neighbours within {:.4g}", r.parameters.radius)
+          : fmt::format("{} neighbours{}", r.parameters.nearest(),
+                        r.noise_over_spacing ? fmt::format(" (noise {:.2g} spacings)", *r.noise_over_spacing) : "");
   std::string text = fmt::format(
       "{}, angle {:g} degrees{}; spacing about {:.4g}, lattice step {:g}\n"
       "memory {} ({}), {} threads; {} tiles of at most {} points\n"

@@ -15,7 +15,10 @@ void add_segment_options(CLI::App& verb, SegmentOptions& o) {
   const auto length = [&](const char* name, std::string& value, const char* what) {
     verb.add_option(name, value, what)->group(group);
   };
-  number("-k,--neighbours", p.neighbours, "Nearest neighbours of a point, 3 to 64");
+  verb.add_option("-k,--neighbours", p.neighbours,
+                  "Nearest neighbours of a point, 3 to 64 (default 8; up to 32 where the noise is large against the "
+                  "spacing)")
+      ->group(group);
   length("--radius", o.radius, "All points this near are neighbours, 64 at most, instead of the nearest (length)");
   length("--max-radius", o.max_radius, "Neighbours are never farther (length; default: 120 spacings of the scan)");
   number("--angle", p.angle_deg, "Normals of neighbours in one segment differ by less, degrees");

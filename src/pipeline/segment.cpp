@@ -9,11 +9,13 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/process_memory.h"
+#include "features/segment/noise_estimate.h"
 #include "merge/result_reader.h"
 #include "pipeline/contour_row.h"
 #include "pipeline/ground_stage.h"
 #include "pipeline/growth_stage.h"
 #include "pipeline/job_plan.h"
+#include "pipeline/noise_stage.h"
 #include "pipeline/outline_output.h"
 #include "pipeline/outline_stage.h"
 #include "pipeline/point_selection.h"
@@ -101,6 +103,16 @@ IntensityTable choose_points(io::InputSet& inputs, const SegmentRequest& request
   return intensities;
 }
 
+/// The default number of neighbours follows the noise, unless as published.
+void choose_neighbours(io::InputSet& inputs, const tiling::Survey& survey, SegmentReport& report, Stopwatch& watch,
+                       ProgressSink& progress, const CancelToken& cancel) {
+  SegmentParameters& p = report.parameters;
+  if (p.neighbours || p.radius > 0.0 || p.published) return;
+  report.noise_over_spacing = estimate_noise(inputs, survey, progress, cancel);
+  p.neighbours = neighbours_for(*report.noise_over_spacing);
+  watch.lap("noise");
+}
+
 /// Growth, planes and reassignment.
 PlanarSegments find_segments(io::InputSet& inputs, const SegmentRequest& request, const TileJob& job,
                              const IntensityTable& intensities, const std::filesystem::path& folder,
@@ -173,6 +185,7 @@ SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, con
     report.parameters.max_radius = resolve_max_radius(survey, 0.0, report.parameters.radius);
   const Lattice lattice = survey.lattice;
   watch.lap("survey");
+  choose_neighbours(inputs, survey, report, watch, sink, cancel);
 
   const RunFolder folder(request.temp_dir);
   TileJob job = plan_job(std::move(survey), request, report.parameters, kept_bytes(inputs.points()), sink);

@@ -42,9 +42,10 @@ VoxelMemory::VoxelMemory(std::uint64_t budget_bytes)
     : usable_bytes_(static_cast<std::uint64_t>(kSafety * static_cast<double>(budget_bytes))) {
   const std::uint64_t fixed = resident_bytes() + kPassBytes + kSurveyBytes;
   if (usable_bytes_ < fixed + kLeastTableBytes) {
-    throw BudgetError(fmt::format(
-        "--memory {} is too small: this run needs at least {}", human_bytes(budget_bytes),
-        human_bytes(static_cast<std::uint64_t>(static_cast<double>(fixed + kLeastTableBytes) / kSafety) + kSpareBytes)));
+    throw BudgetError(
+        fmt::format("--memory {} is too small: this run needs at least {}", human_bytes(budget_bytes),
+                    human_bytes(static_cast<std::uint64_t>(static_cast<double>(fixed + kLeastTableBytes) / kSafety) +
+                                kSpareBytes)));
   }
   table_bytes_ = std::clamp((usable_bytes_ - fixed) / 2, kLeastTableBytes, kMostTableBytes);
   index_bytes_ = usable_bytes_ - fixed - table_bytes_;

@@ -107,6 +107,19 @@ TEST(Segment, NoPointsOrOneOrAllInOnePlace_AreNoSegment) {
   }
 }
 
+// Noise of a fifth of the spacing and more, at which 8 neighbours make no plane.
+TEST(Segment, NoisyGable_IsTwoSegmentsByItself) {
+  const TempFolder folder;
+  for (const char* noise : {"5mm", "2cm", "3cm"}) {
+    synth_scan(folder / "gable.las", {"gable", "--spacing", "0.1", "--noise", noise, "--sampling", "random"});
+    segment(folder / "gable.las", folder / "out.las", {"--report", folder / "report.json"});
+    const auto counts = counts_of(labels_of(view_las(folder / "out.las")));
+    EXPECT_EQ(counts.size() - counts.count(0), 2U) << noise;
+    const auto report = nlohmann::json::parse(file_bytes(folder / "report.json"));
+    EXPECT_EQ(report["parameters"]["neighbours"] == 8, std::string(noise) == "5mm") << noise;
+  }
+}
+
 TEST(Segment, PlyWithoutIntensities_WarnsAndGoesByShape) {
   const TempFolder folder;
   write_coloured_ply(folder / "in.ply", coloured_room(30, 255), "uchar");

@@ -26,11 +26,11 @@ bool is_length(double value) {
 }  // namespace
 
 std::size_t SegmentParameters::most_neighbours() const {
-  return radius > 0.0 ? kMostNeighbours : neighbours;
+  return radius > 0.0 ? kMostNeighbours : nearest();
 }
 
 void validate(const SegmentParameters& p) {
-  require(p.neighbours >= 3 && p.neighbours <= kMostNeighbours, "--neighbours", static_cast<double>(p.neighbours),
+  require(p.nearest() >= 3 && p.nearest() <= kMostNeighbours, "--neighbours", static_cast<double>(p.nearest()),
           "between 3 and 64");
   require(is_length(p.radius), "--radius", p.radius, "finite and not negative");
   require(is_length(p.max_radius), "--max-radius", p.max_radius, "finite and not negative");
@@ -49,7 +49,7 @@ double segment_halo(const SegmentParameters& parameters, double spacing) {
   // On a surface k neighbours fill a disc of radius sqrt(k / pi) spacings. A point, its neighbours, and theirs where
   // they must agree.
   const double rings = parameters.published ? 2.0 : 3.0;
-  const double k = static_cast<double>(parameters.neighbours);
+  const double k = static_cast<double>(parameters.nearest());
   const double ring = parameters.radius > 0.0 ? parameters.radius : kHaloMargin * std::sqrt((k + 1.0) / kPi) * spacing;
   return std::min(rings * ring, rings * parameters.reach());
 }

@@ -9,7 +9,9 @@ namespace arris {
 
 /// Lengths in data units. Defaults are the paper's where it gives a value.
 struct SegmentParameters {
-  std::size_t neighbours = 8;  ///< k, 3 to kMostNeighbours.
+  /// k, 3 to kMostNeighbours; without: 8, or, not as published, what the noise asks for (noise_estimate.h; resolved by
+  /// the pipeline).
+  std::optional<std::size_t> neighbours;
   /// > 0: the neighbours are all points this near, but no more than kMostNeighbours, instead of the k nearest.
   double radius = 0.0;
   double max_radius = 0.0;  ///< R_max: no neighbour is farther, > 0 when the method runs (resolved by the pipeline).
@@ -33,6 +35,7 @@ struct SegmentParameters {
 
   /// Searches stop here: radius if given, else R_max.
   double reach() const { return radius > 0.0 && radius < max_radius ? radius : max_radius; }
+  std::size_t nearest() const { return neighbours.value_or(8); }
   std::size_t most_neighbours() const;
   double least_agreement() const { return published ? 0.0 : agreement.value_or(0.3); }
   int least_intensity_step() const { return intensity_step.value_or(published ? 10 : 20); }
