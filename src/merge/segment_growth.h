@@ -32,8 +32,6 @@ class SegmentGrowth {
   /// Segments of fewer than min_points different positions are none. Call once, after the last add().
   GrownSegments finish();
 
-  std::uint64_t components() const { return sizes_.size(); }
-
  private:
   void join_touched();
   void take_offers();

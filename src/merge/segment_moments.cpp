@@ -57,11 +57,4 @@ SegmentPlane SegmentMoments::plane(std::uint32_t segment) const {
   return plane;
 }
 
-void SegmentMoments::renumber(const std::vector<std::uint32_t>& new_number, std::uint32_t new_count) {
-  std::vector<Sums> kept(new_count);
-  for (std::size_t old = 0; old < sums_.size(); ++old)
-    if (new_number[old] != 0) kept[new_number[old] - 1] = sums_[old];
-  sums_ = std::move(kept);
-}
-
 }  // namespace arris::merge

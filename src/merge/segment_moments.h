@@ -26,9 +26,6 @@ class SegmentMoments {
   /// line, have the normal that principal_frame() gives. SegmentPlane::spacing is left alone.
   SegmentPlane plane(std::uint32_t segment) const;
 
-  /// Keeps only segments with new_number[segment - 1] != 0, under that number.
-  void renumber(const std::vector<std::uint32_t>& new_number, std::uint32_t new_count);
-
   static constexpr std::uint64_t kBytesPerSegment = 176;
 
  private:

@@ -42,7 +42,6 @@ GrowthResult grow_segments(io::InputSet& inputs, const GrowthSetup& setup, merge
   }
   release_free_memory();
   setup.watch.lap("widen");
-  result.components = growth.components();
   result.segments = growth.finish();
   // What has the position of another point has its segment.
   duplicates.for_each(

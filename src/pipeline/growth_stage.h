@@ -30,7 +30,6 @@ struct GrowthResult {
   merge::GrownSegments segments;
   std::uint64_t isolated = 0;
   std::uint64_t widened_queries = 0;
-  std::uint64_t components = 0;
   std::uint64_t peak_temp_bytes = 0;
 };
 

@@ -128,10 +128,36 @@ TEST(Segment, PlyWithoutIntensities_WarnsAndGoesByShape) {
   EXPECT_NE(run.err.find("no-intensity"), std::string::npos) << run.err;
 }
 
+/// Points of a class, in point format 6, that have a segment; and all of that class.
+std::pair<std::size_t, std::size_t> labelled_of_class(const LasView& view, unsigned char wanted) {
+  constexpr std::size_t kClassByte = 16;
+  const std::vector<std::uint32_t> labels = labels_of(view);
+  std::pair<std::size_t, std::size_t> counts;
+  for (std::uint64_t i = 0; i < view.points; ++i) {
+    if (static_cast<unsigned char>(view.record(i)[kClassByte]) != wanted) continue;
+    counts.first += labels[i] != 0;
+    ++counts.second;
+  }
+  return counts;
+}
+
 TEST(Segment, MinHeight_LeavesTheGroundOut) {
   const TempFolder folder;
-  synth_scan(folder / "house.las", {"hip", "--spacing", "0.3", "--set", "ground=1", "--set", "overhang=0.3"});
-  // Without classes there is no ground to measure from.
+  synth_scan(folder / "roofs.las", {"roofs", "--spacing", "0.5", "--set", "ground=1"});
+  segment(folder / "roofs.las", folder / "all.las");
+  segment(folder / "roofs.las", folder / "high.las", {"--min-height", "1.5m"});
+  const LasView all = view_las(folder / "all.las"), high = view_las(folder / "high.las");
+  const auto [ground_labelled, ground] = labelled_of_class(all, 2);
+  ASSERT_GT(ground, 10000U);
+  EXPECT_GT(ground_labelled, ground * 9 / 10);
+  EXPECT_EQ(labelled_of_class(high, 2).first, 0U);
+  const auto [roof_labelled, roof] = labelled_of_class(high, 6);
+  ASSERT_GT(roof, 1000U);
+  EXPECT_GT(roof_labelled, roof * 9 / 10);
+}
+
+TEST(SegmentErrors, MinHeightWithoutGroundPoints_IsRefused) {
+  const TempFolder folder;
   write_las(folder / "plain.las", noisy_plate(30, 10));
   const ProcessResult run =
       run_arris({"segment", folder / "plain.las", "-o", folder / "out.las", "--min-height", "1.5m"});

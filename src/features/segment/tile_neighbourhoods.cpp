@@ -53,7 +53,6 @@ class TileNeighbourhoods::Runner {
 TileNeighbourhoods::TileNeighbourhoods(const PointTree& tree, const Lattice& lattice,
                                        const SegmentParameters& parameters)
     : tree_(tree),
-      parameters_(parameters),
       stride_(parameters.most_neighbours()),
       reach_steps_(parameters.reach() / lattice.step),
       weights_{parameters.inlier_distance / lattice.step, parameters.published},

@@ -51,7 +51,6 @@ class TileNeighbourhoods {
   class Runner;
 
   const PointTree& tree_;
-  const SegmentParameters& parameters_;
   std::size_t stride_;
   double reach_steps_;
   PlaneWeights weights_;
