@@ -1,4 +1,4 @@
-/// @file arris extract and arris plan.
+/// @file arris extract.
 
 #include <fmt/format.h>
 
@@ -21,7 +21,6 @@ struct ExtractOptions {
   bool keep_all = false;
   bool mixed_crs = false;
   bool refined = false;
-  bool json = false;
 };
 
 std::string percent(std::uint64_t part, std::uint64_t whole) {
@@ -78,38 +77,6 @@ int run_extract(ExtractOptions& o, const CLI::App& verb, Session& session) {
   return 0;
 }
 
-/// Points per second and thread of the whole job, for the time that a plan states; see bench/README.md.
-constexpr double kPlanPointsPerThreadSecond = 400e3;
-
-std::string describe_plan(const pipeline::ExtractReport& r, const std::string& memory_why) {
-  const double seconds = static_cast<double>(r.points_in) / (kPlanPointsPerThreadSecond * r.threads);
-  std::string text;
-  for (const pipeline::InputReport& input : r.inputs) {
-    text += fmt::format("{}: {} points, {}\n", printable(input.path), grouped(input.points), input.layout);
-  }
-  text += fmt::format("points            {}\n", grouped(r.points_in));
-  text += fmt::format("spacing           about {:.4g}\n", r.spacing);
-  text += fmt::format("search limit      {:.4g}\n", r.parameters.max_radius());
-  text += fmt::format("tiles             {} of at most {} points (limit {}), {} in flight\n", grouped(r.tiles),
-                      grouped(r.largest_tile_points), grouped(r.tile_points_limit), r.tile_workers);
-  text += fmt::format("halo              {:.4g} to {:.4g}; {:.2f} copies of each point\n", r.least_halo, r.widest_halo,
-                      r.duplication);
-  text += fmt::format("peak memory       {} predicted of {} ({})\n", human_bytes(r.predicted_peak_bytes),
-                      human_bytes(r.memory_budget_bytes), memory_why);
-  text += fmt::format("temporary files   {} predicted\n", human_bytes(r.predicted_temp_bytes));
-  text += fmt::format("time              about {:.0f} s on {} threads (rough)\n", seconds, r.threads);
-  return text;
-}
-
-int run_plan(ExtractOptions& o, const CLI::App& verb, Session& session) {
-  const pipeline::ExtractRequest request = to_request(o.job, verb);
-  ProgressDisplay display(o.job.run.display.mode(), o.job.run.display.verbosity());
-  const pipeline::ExtractReport report = pipeline::plan_only(request, display, session.cancel);
-  display.finish();
-  write_text("-", o.json ? to_json(report).dump(2) + "\n" : describe_plan(report, o.job.run.memory_why), false);
-  return 0;
-}
-
 }  // namespace
 
 void add_extract(CLI::App& app, Session& session) {
@@ -128,16 +95,6 @@ void add_extract(CLI::App& app, Session& session) {
                  "Allow inputs with different coordinate reference systems in one output");
   verb->callback([options, verb, &session] {
     session.run = [options, verb, &session] { return run_extract(*options, *verb, session); };
-  });
-}
-
-void add_plan(CLI::App& app, Session& session) {
-  auto options = std::make_shared<ExtractOptions>();
-  CLI::App* verb = app.add_subcommand("plan", "What extract would do: tiles, memory, disk; touches nothing");
-  add_job_options(*verb, options->job);
-  verb->add_flag("--json", options->json, "As JSON");
-  verb->callback([options, verb, &session] {
-    session.run = [options, verb, &session] { return run_plan(*options, *verb, session); };
   });
 }
 

@@ -9,17 +9,13 @@
 #include "commands.h"
 #include "core/text.h"
 #include "pipeline/segment.h"
-#include "run_options.h"
-#include "segment_filter_options.h"
-#include "segment_options.h"
+#include "segment_job_options.h"
 
 namespace arris::tools {
 namespace {
 
 struct SegmentCommand {
-  RunOptions run;
-  SegmentOptions segment;
-  SegmentFilterOptions filter;
+  SegmentJobOptions job;
   std::vector<std::string> outputs;
   std::string table, outlines;
   std::string report;
@@ -49,23 +45,17 @@ std::string describe_segments(const pipeline::SegmentReport& r, const std::strin
 }
 
 int run_segment(SegmentCommand& o, Session& session) {
-  pipeline::SegmentRequest request;
-  fill_run_request(o.run, request);
+  pipeline::SegmentRequest request = to_request(o.job);
   request.outputs.assign(o.outputs.begin(), o.outputs.end());
   request.overwrite = o.overwrite;
   request.mixed_crs = o.mixed_crs;
   request.hash_inputs = !o.report.empty();
-  request.parameters = to_parameters(o.segment);
-  request.contours = o.segment.contours;
-  request.shape = o.segment.shape;
   request.table = o.table;
   request.outlines = o.outlines;
-  request.parameters.intensity = !o.filter.no_intensity;
-  if (o.filter.by_height()) request.min_height = o.filter.min_height_units();
-  ProgressDisplay display(o.run.display.mode(), o.run.display.verbosity());
+  ProgressDisplay display(o.job.run.display.mode(), o.job.run.display.verbosity());
   const pipeline::SegmentReport report = pipeline::segment(request, display, session.cancel);
   display.finish();
-  display.note(describe_segments(report, o.run.memory_why));
+  display.note(describe_segments(report, o.job.run.memory_why));
   if (!o.report.empty()) write_text(o.report, to_json(report).dump(2) + "\n", o.overwrite);
   return 0;
 }
@@ -76,7 +66,7 @@ void add_segment(CLI::App& app, Session& session) {
   auto options = std::make_shared<SegmentCommand>();
   CLI::App* verb =
       app.add_subcommand("segment", "Planar segments of roofs and facades: every point gets the id of its own");
-  add_run_options(*verb, options->run);
+  add_segment_job_options(*verb, options->job);
   verb->add_option("-o,--output", options->outputs, "Output, .las or .ply; may be given several times")
       ->required()
       ->take_all();
@@ -86,8 +76,6 @@ void add_segment(CLI::App& app, Session& session) {
   verb->add_flag("--overwrite", options->overwrite, "Replace existing outputs");
   verb->add_flag("--mixed-crs", options->mixed_crs,
                  "Allow inputs with different coordinate reference systems in one output");
-  add_segment_options(*verb, options->segment);
-  add_segment_filter_options(*verb, options->filter, "Points that take part");
   verb->callback([options, &session] { session.run = [options, &session] { return run_segment(*options, session); }; });
 }
 

@@ -88,13 +88,7 @@ Json to_json(const ExtractReport& r) {
                    {"isolated_points", r.isolated}};
   if (r.parameters.by_supervoxels())
     json["supervoxels"] = {{"voxels", r.voxels}, {"count", r.supervoxels}, {"tiles", r.voxel_tiles}};
-  json["tiles"] = {{"count", r.tiles},
-                   {"largest_points", r.largest_tile_points},
-                   {"points_limit", r.tile_points_limit},
-                   {"in_flight", r.tile_workers},
-                   {"halo", {{"least", r.least_halo}, {"widest", r.widest_halo}}},
-                   {"duplication", r.duplication},
-                   {"widened_queries", r.widened_queries}};
+  json["tiles"] = tiles_json(r);
   append_report_tail(json, r);
   return json;
 }

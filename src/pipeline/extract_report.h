@@ -5,11 +5,11 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "features/contour/contour_method.h"
-#include "pipeline/run_report.h"
+#include "pipeline/tiled_report.h"
 
 namespace arris::pipeline {
 
-struct ExtractReport : RunReport {
+struct ExtractReport : TiledReport {
   ContourParameters parameters;  ///< As used: everything resolved.
 
   // points_in = points_out + not_contour + all dropped ones (without keep_all).
@@ -18,19 +18,9 @@ struct ExtractReport : RunReport {
   std::uint64_t weak_boundary = 0;
   std::uint64_t fold = 0;
   std::uint64_t contact = 0;
-  std::uint64_t isolated = 0;
   std::uint64_t voxels = 0;  ///< Method zheng, as the supervoxels.
   std::uint64_t supervoxels = 0;
   std::uint64_t voxel_tiles = 0;
-
-  std::uint64_t tiles = 0;
-  std::uint64_t largest_tile_points = 0;
-  std::uint64_t tile_points_limit = 0;
-  int tile_workers = 1;
-  double least_halo = 0.0;  ///< Data units.
-  double widest_halo = 0.0;
-  double duplication = 1.0;
-  std::uint64_t widened_queries = 0;
 };
 
 nlohmann::ordered_json to_json(const ExtractReport& report);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "features/contour/contour_method.h"
 #include "pipeline/point_selection.h"
@@ -56,21 +55,7 @@ void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const Extrac
                    ExtractReport& report) {
   describe_inputs(plan.survey, inputs, request, report);
   report.parameters = plan.method;
-  report.tiles = plan.tiles.tiles.size();
-  report.largest_tile_points = plan.tiles.largest_covered_points;
-  report.tile_points_limit = plan.memory.max_tile_points;
-  report.tile_workers = plan.memory.tile_workers;
-  report.duplication = plan.tiles.duplication;
-  std::int64_t least = plan.tiles.tiles.empty() ? 0 : std::numeric_limits<std::int64_t>::max();
-  std::int64_t widest = 0;
-  for (const tiling::PlannedTile& tile : plan.tiles.tiles) {
-    least = std::min(least, tile.core.min[0] - tile.covered.min[0]);
-    widest = std::max(widest, tile.core.min[0] - tile.covered.min[0]);
-  }
-  report.least_halo = static_cast<double>(least) * plan.survey.lattice.step;
-  report.widest_halo = static_cast<double>(widest) * plan.survey.lattice.step;
-  report.predicted_peak_bytes = plan.predicted_peak_bytes;
-  report.predicted_temp_bytes = plan.predicted_temp_bytes;
+  describe_tiles(plan, report);
 }
 
 }  // namespace arris::pipeline

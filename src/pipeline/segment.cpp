@@ -9,19 +9,15 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/process_memory.h"
-#include "features/segment/noise_estimate.h"
 #include "merge/result_reader.h"
 #include "pipeline/contour_row.h"
-#include "pipeline/ground_stage.h"
 #include "pipeline/growth_stage.h"
-#include "pipeline/job_plan.h"
-#include "pipeline/noise_stage.h"
 #include "pipeline/outline_output.h"
 #include "pipeline/outline_stage.h"
-#include "pipeline/point_selection.h"
 #include "pipeline/run_folder.h"
 #include "pipeline/run_support.h"
 #include "pipeline/segment_outputs.h"
+#include "pipeline/segment_plan.h"
 #include "pipeline/segment_planes.h"
 #include "pipeline/segment_text.h"
 #include "pipeline/write_columns.h"
@@ -29,53 +25,24 @@
 namespace arris::pipeline {
 namespace {
 
-/// A component of 8 points is as small as most are; their table is in memory.
-constexpr double kComponentBytesPerPoint = 2.0;
-
-/// What a scan of n points keeps in memory besides its tiles.
-std::uint64_t kept_bytes(std::uint64_t points) {
-  const double per_point = merge::kLabelBytesPerPoint + kComponentBytesPerPoint;
-  return static_cast<std::uint64_t>(per_point * static_cast<double>(points));
-}
-
-TileJob plan_job(tiling::Survey survey, const SegmentRequest& request, SegmentParameters& parameters,
-                 std::uint64_t kept, ProgressSink& progress) {
-  TileJob job;
-  job.survey = std::move(survey);
-  job.memory_request = {
-      request.memory_bytes, request.threads, kept, {growth_bytes_per_point(parameters), kGrowthBytesPerThread}};
-  job.memory = plan_memory(job.memory_request);
-  TileNeeds needs;
-  needs.halo = [&](double spacing) { return segment_halo(parameters, spacing); };
-  needs.max_radius = (parameters.published ? 2.0 : 3.0) * parameters.reach();
-  // Half of the points on the frontier is more than real scans have.
-  needs.result_bytes_per_point = 0.5 * 4.0 * static_cast<double>(4 + parameters.most_neighbours());
-  plan_tiles_of(job, needs, request, progress);
-  return job;
-}
-
-/// Empty, and the parameter off, where the inputs have none.
-IntensityTable use_intensities(io::InputSet& inputs, SegmentParameters& parameters, ProgressSink& progress,
-                               const CancelToken& cancel) {
-  if (!parameters.intensity) return {};
-  IntensityTable table = read_intensities(inputs, progress, cancel);
-  if (!table.complete() && inputs.points() > 0) {
-    table.files.clear();
-    parameters.intensity = false;
-    progress.warning("no-intensity", "not all inputs have intensities; segments are told apart by their shape alone");
-  }
-  return table;
-}
-
 /// Before any work.
-void check_request(const SegmentRequest& request) {
+void check_outputs(const SegmentRequest& request) {
   if (request.outputs.empty()) throw ConfigError("no output given; add -o FILE");
   check_text_output(request.table, "--table", request.overwrite);
   check_outline_output(request.outlines, "--outlines", request.overwrite);
+}
+
+void check_parameters(const SegmentRequest& request) {
   validate(request.parameters);
   validate(request.shape);
   if (request.parameters.published && request.parameters.agreement)
     throw ConfigError("--agreement has no meaning with --as-published; leave one out");
+}
+
+/// Ids have 32 bits.
+void refuse_too_many(const io::InputSet& inputs) {
+  if (inputs.points() >= TileGrowth::kNoId)
+    throw ConfigError(fmt::format("segment takes at most {} points; cut the scan into parts", TileGrowth::kNoId - 1));
 }
 
 std::vector<ColumnSpec> columns_of(const SegmentRequest& request) {
@@ -86,43 +53,16 @@ std::vector<ColumnSpec> columns_of(const SegmentRequest& request) {
   return columns;
 }
 
-/// What of the inputs takes part: intensities, then exclusions, then heights.
-IntensityTable choose_points(io::InputSet& inputs, const SegmentRequest& request, SegmentReport& report,
-                             Stopwatch& watch, ProgressSink& progress, const CancelToken& cancel) {
-  // Before the exclusions, which neither the scale of intensities nor the ground must depend on.
-  IntensityTable intensities = use_intensities(inputs, report.parameters, progress, cancel);
-  report.intensities = intensities.files;
-  if (report.parameters.intensity) watch.lap("intensity");
-  inputs.exclude(request.exclusion);
-  if (request.min_height) {
-    report.min_height = request.min_height;
-    inputs.add_filter(above_ground(std::make_shared<const GroundModel>(read_ground(inputs, progress, cancel)),
-                                   *request.min_height, inputs.sources()));
-    watch.lap("ground");
-  }
-  return intensities;
-}
-
-/// The default number of neighbours follows the noise, unless as published.
-void choose_neighbours(io::InputSet& inputs, const tiling::Survey& survey, SegmentReport& report, Stopwatch& watch,
-                       ProgressSink& progress, const CancelToken& cancel) {
-  SegmentParameters& p = report.parameters;
-  if (p.neighbours || p.radius > 0.0 || p.published) return;
-  report.noise_over_spacing = estimate_noise(inputs, survey, progress, cancel);
-  p.neighbours = neighbours_for(*report.noise_over_spacing);
-  watch.lap("noise");
-}
-
 /// Growth, planes and reassignment.
-PlanarSegments find_segments(io::InputSet& inputs, const SegmentRequest& request, const TileJob& job,
-                             const IntensityTable& intensities, const std::filesystem::path& folder,
-                             SegmentReport& report, Stopwatch& watch, ProgressSink& progress,
-                             const CancelToken& cancel) {
+PlanarSegments find_segments(io::InputSet& inputs, const SegmentRequest& request, const SegmentPlan& plan,
+                             const std::filesystem::path& folder, SegmentReport& report, Stopwatch& watch,
+                             ProgressSink& progress, const CancelToken& cancel) {
+  const TileJob& job = plan.job;
   merge::SegmentFrontier frontier(folder / "frontier", report.parameters.most_neighbours());
   merge::DuplicatePoints duplicates(folder / "duplicates");
   GrowthResult growth =
-      grow_segments(inputs, {job, report.parameters, intensities.of_point, request.threads, folder, watch}, frontier,
-                    duplicates, progress, cancel);
+      grow_segments(inputs, {job, report.parameters, plan.intensities.of_point, request.threads, folder, watch},
+                    frontier, duplicates, progress, cancel);
   report.isolated = growth.isolated;
   report.widened_queries = growth.widened_queries;
   report.peak_temp_bytes = growth.peak_temp_bytes;
@@ -157,8 +97,24 @@ FillRows rows_of(const PlanarSegments& segments, merge::ResultReader* contours, 
 
 }  // namespace
 
+SegmentReport plan_segments(const SegmentRequest& request, ProgressSink& progress, const CancelToken& cancel) {
+  check_parameters(request);
+  SegmentReport report;
+  report.parameters = request.parameters;
+  RecordingSink sink(progress, report);
+  Stopwatch watch(report);
+  io::InputSet inputs(io::expand_inputs(request.inputs), request.tolerance);
+  refuse_too_many(inputs);
+  ProblemWarnings problems(inputs, sink);
+  problems.forward();
+  plan_segment_job(inputs, request, problems, report, watch, sink, cancel);
+  report.peak_resident_bytes = peak_resident_bytes();
+  return report;
+}
+
 SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, const CancelToken& cancel) {
-  check_request(request);
+  check_outputs(request);
+  check_parameters(request);
   SegmentReport report;
   report.parameters = request.parameters;
   RecordingSink sink(progress, report);
@@ -167,35 +123,17 @@ SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, con
   const std::vector<std::filesystem::path> paths = io::expand_inputs(request.inputs);
   refuse_bad_outputs(request, paths);
   io::InputSet inputs(paths, request.tolerance);
-  if (inputs.points() >= TileGrowth::kNoId)
-    throw ConfigError(fmt::format("segment takes at most {} points; cut the scan into parts", TileGrowth::kNoId - 1));
+  refuse_too_many(inputs);
   ProblemWarnings problems(inputs, sink);
   problems.forward();
   Writers writers = open_writers(request, inputs, columns_of(request), true, report);
   for (const std::filesystem::path& path : {request.table, request.outlines})
     if (!path.empty()) report.outputs.push_back(path.string());
-  const IntensityTable intensities = choose_points(inputs, request, report, watch, sink, cancel);
-
-  tiling::Survey survey = tiling::survey_inputs(inputs, {request.lattice_step}, sink, cancel);
-  problems.forward();
-  refuse_missing_classes(request, survey);
-  describe_inputs(survey, inputs, request, report);
-  warn_of_dropped(report, sink);
-  if (report.parameters.max_radius == 0.0)
-    report.parameters.max_radius = resolve_max_radius(survey, 0.0, report.parameters.radius);
-  const Lattice lattice = survey.lattice;
-  watch.lap("survey");
-  choose_neighbours(inputs, survey, report, watch, sink, cancel);
-
+  SegmentPlan plan = plan_segment_job(inputs, request, problems, report, watch, sink, cancel);
+  TileJob& job = plan.job;
+  const Lattice lattice = job.survey.lattice;
   const RunFolder folder(request.temp_dir);
-  TileJob job = plan_job(std::move(survey), request, report.parameters, kept_bytes(inputs.points()), sink);
-  report.tiles = job.tiles.tiles.size();
-  report.largest_tile_points = job.tiles.largest_covered_points;
-  report.tile_workers = job.memory.tile_workers;
-  report.predicted_peak_bytes = job.predicted_peak_bytes;
-  report.predicted_temp_bytes = job.predicted_temp_bytes;
-  const PlanarSegments segments =
-      find_segments(inputs, request, job, intensities, folder.path(), report, watch, sink, cancel);
+  const PlanarSegments segments = find_segments(inputs, request, plan, folder.path(), report, watch, sink, cancel);
 
   report.shape = request.shape;
   report.shape.boundary = report.shape.fold = request.contours;

@@ -12,8 +12,8 @@
 #include "features/segment/segment_parameters.h"
 #include "features/segment_contours/segment_contour_parameters.h"
 #include "pipeline/intensity_stage.h"
-#include "pipeline/run_report.h"
 #include "pipeline/run_request.h"
+#include "pipeline/tiled_report.h"
 
 namespace arris::pipeline {
 
@@ -31,7 +31,7 @@ struct SegmentRequest : RunRequest {
 /// bounds how far tiles must look.
 constexpr double kMostContourSpacings = 8.0;
 
-struct SegmentReport : RunReport {
+struct SegmentReport : TiledReport {
   SegmentParameters parameters;  ///< As used.
   std::optional<double> min_height;
   std::vector<IntensityRange> intensities;  ///< Per input; empty if they played no part.
@@ -40,13 +40,8 @@ struct SegmentReport : RunReport {
   std::uint64_t segments = 0;
   std::uint64_t boundary = 0, fold = 0;  ///< Points, if asked for.
   std::uint64_t labelled = 0;            ///< Points in a segment.
-  std::uint64_t isolated = 0;            ///< Points without a normal.
   std::uint64_t reassigned = 0;          ///< Changes of all sweeps.
   std::uint64_t frontier = 0;            ///< Points near borders of segments, or in none.
-  std::uint64_t widened_queries = 0;
-  std::uint64_t tiles = 0;
-  std::uint64_t largest_tile_points = 0;
-  int tile_workers = 1;
 };
 
 /// Survey, tiles, growth in each tile, segments of the whole scan, their planes, reassignment, then the inputs again
@@ -54,6 +49,10 @@ struct SegmentReport : RunReport {
 /// the parameters only. Outputs appear whole or not at all; temporary files are gone when this returns or throws.
 /// Memory beyond the tiles: 4 bytes per point of the scan. Throws the errors of core/error.h.
 SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, const CancelToken& cancel);
+
+/// Everything up to the plan of the tiles; --contours and outlines, which plan tiles of their own, are left out. Reads
+/// the inputs, writes nothing.
+SegmentReport plan_segments(const SegmentRequest& request, ProgressSink& progress, const CancelToken& cancel);
 
 nlohmann::ordered_json to_json(const SegmentReport& report);
 nlohmann::ordered_json segment_json(const SegmentParameters& parameters);

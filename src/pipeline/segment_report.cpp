@@ -34,9 +34,9 @@ nlohmann::ordered_json to_json(const SegmentReport& r) {
     json["intensities"].push_back(
         {{"scaled", range.scale.scaled}, {"low", range.scale.low}, {"high", range.scale.high}});
   }
-  json["points"] = {{"in", r.points_in},          {"out", r.points_out},         {"dropped", dropped_json(r)},
-                    {"labelled", r.labelled},     {"isolated", r.isolated},      {"frontier", r.frontier},
-                    {"reassigned", r.reassigned}, {"widened", r.widened_queries}};
+  json["points"] = {{"in", r.points_in},         {"out", r.points_out},    {"dropped", dropped_json(r)},
+                    {"labelled", r.labelled},    {"isolated", r.isolated}, {"frontier", r.frontier},
+                    {"reassigned", r.reassigned}};
   json["noise_over_spacing"] =
       r.noise_over_spacing ? nlohmann::ordered_json(*r.noise_over_spacing) : nlohmann::ordered_json();
   json["segments"] = r.segments;
@@ -44,7 +44,7 @@ nlohmann::ordered_json to_json(const SegmentReport& r) {
                                 {"fold_angle_deg", r.shape.fold_angle_deg},
                                 {"most_spacing", r.shape.most_spacing}};
   json["contours"] = {{"boundary", r.boundary}, {"fold", r.fold}};
-  json["tiles"] = {{"count", r.tiles}, {"largest_points", r.largest_tile_points}, {"workers", r.tile_workers}};
+  json["tiles"] = tiles_json(r);
   append_report_tail(json, r);
   return json;
 }

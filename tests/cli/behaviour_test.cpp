@@ -196,6 +196,11 @@ TEST(Behaviour, PlanPrintsAndTouchesNothing) {
   EXPECT_NE(run.out.find("peak memory"), std::string::npos);
   EXPECT_EQ(entries(folder.path()), 1U);
   EXPECT_EQ(nlohmann::json::parse(run_arris({"plan", folder / "in.las", "--json"}).out)["points"]["in"], 900);
+  const ProcessResult segments = run_arris({"plan", "segment", folder / "in.las", "-k", "12", "--json"});
+  ASSERT_EQ(segments.exit_code, 0) << segments.err;
+  EXPECT_EQ(nlohmann::json::parse(segments.out)["parameters"]["neighbours"], 12);
+  EXPECT_EQ(entries(folder.path()), 1U);
+  EXPECT_EQ(run_arris({"plan"}).exit_code, 2);
 }
 
 TEST(Behaviour, Info_ShowsCountsAndFindsAWrongBox) {

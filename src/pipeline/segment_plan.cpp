@@ -1,0 +1,102 @@
+#include "pipeline/segment_plan.h"
+
+#include <memory>
+
+#include "features/segment/noise_estimate.h"
+#include "features/segment/tile_growth.h"
+#include "merge/point_labels.h"
+#include "pipeline/ground_stage.h"
+#include "pipeline/job_plan.h"
+#include "pipeline/noise_stage.h"
+#include "pipeline/point_selection.h"
+
+namespace arris::pipeline {
+namespace {
+
+/// A component of 8 points is as small as most are; their table is in memory.
+constexpr double kComponentBytesPerPoint = 2.0;
+
+/// What a scan of n points keeps in memory besides its tiles.
+std::uint64_t kept_bytes(std::uint64_t points) {
+  const double per_point = merge::kLabelBytesPerPoint + kComponentBytesPerPoint;
+  return static_cast<std::uint64_t>(per_point * static_cast<double>(points));
+}
+
+TileJob plan_job(tiling::Survey survey, const SegmentRequest& request, SegmentParameters& parameters,
+                 std::uint64_t kept, ProgressSink& progress) {
+  TileJob job;
+  job.survey = std::move(survey);
+  job.memory_request = {
+      request.memory_bytes, request.threads, kept, {growth_bytes_per_point(parameters), kGrowthBytesPerThread}};
+  job.memory = plan_memory(job.memory_request);
+  TileNeeds needs;
+  needs.halo = [&](double spacing) { return segment_halo(parameters, spacing); };
+  needs.max_radius = (parameters.published ? 2.0 : 3.0) * parameters.reach();
+  // Half of the points on the frontier is more than real scans have.
+  needs.result_bytes_per_point = 0.5 * 4.0 * static_cast<double>(4 + parameters.most_neighbours());
+  plan_tiles_of(job, needs, request, progress);
+  return job;
+}
+
+/// Empty, and the parameter off, where the inputs have none.
+IntensityTable use_intensities(io::InputSet& inputs, SegmentParameters& parameters, ProgressSink& progress,
+                               const CancelToken& cancel) {
+  if (!parameters.intensity) return {};
+  IntensityTable table = read_intensities(inputs, progress, cancel);
+  if (!table.complete() && inputs.points() > 0) {
+    table.files.clear();
+    parameters.intensity = false;
+    progress.warning("no-intensity", "not all inputs have intensities; segments are told apart by their shape alone");
+  }
+  return table;
+}
+
+/// What of the inputs takes part: intensities, then exclusions, then heights.
+IntensityTable choose_points(io::InputSet& inputs, const SegmentRequest& request, SegmentReport& report,
+                             Stopwatch& watch, ProgressSink& progress, const CancelToken& cancel) {
+  // Before the exclusions, which neither the scale of intensities nor the ground must depend on.
+  IntensityTable intensities = use_intensities(inputs, report.parameters, progress, cancel);
+  report.intensities = intensities.files;
+  if (report.parameters.intensity) watch.lap("intensity");
+  inputs.exclude(request.exclusion);
+  if (request.min_height) {
+    report.min_height = request.min_height;
+    inputs.add_filter(above_ground(std::make_shared<const GroundModel>(read_ground(inputs, progress, cancel)),
+                                   *request.min_height, inputs.sources()));
+    watch.lap("ground");
+  }
+  return intensities;
+}
+
+/// The default number of neighbours follows the noise, unless as published.
+void choose_neighbours(io::InputSet& inputs, const tiling::Survey& survey, SegmentReport& report, Stopwatch& watch,
+                       ProgressSink& progress, const CancelToken& cancel) {
+  SegmentParameters& p = report.parameters;
+  if (p.neighbours || p.radius > 0.0 || p.published) return;
+  report.noise_over_spacing = estimate_noise(inputs, survey, progress, cancel);
+  p.neighbours = neighbours_for(*report.noise_over_spacing);
+  watch.lap("noise");
+}
+
+}  // namespace
+
+SegmentPlan plan_segment_job(io::InputSet& inputs, const SegmentRequest& request, ProblemWarnings& problems,
+                             SegmentReport& report, Stopwatch& watch, ProgressSink& progress,
+                             const CancelToken& cancel) {
+  SegmentPlan plan;
+  plan.intensities = choose_points(inputs, request, report, watch, progress, cancel);
+  tiling::Survey survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
+  problems.forward();
+  refuse_missing_classes(request, survey);
+  describe_inputs(survey, inputs, request, report);
+  warn_of_dropped(report, progress);
+  if (report.parameters.max_radius == 0.0)
+    report.parameters.max_radius = resolve_max_radius(survey, 0.0, report.parameters.radius);
+  watch.lap("survey");
+  choose_neighbours(inputs, survey, report, watch, progress, cancel);
+  plan.job = plan_job(std::move(survey), request, report.parameters, kept_bytes(inputs.points()), progress);
+  describe_tiles(plan.job, report);
+  return plan;
+}
+
+}  // namespace arris::pipeline
