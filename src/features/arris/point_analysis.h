@@ -51,6 +51,7 @@ struct PointProspects {
   double near_rms = 0.0;    ///< Of the near ball.
   double off_centre = 1.0;  ///< Distance of the mean of the first ball from its centre, radii.
   bool fold = true;         ///< Folds are possible.
+  bool scatter = false;     ///< The points of the first ball scatter about a plane (scatter.h).
 };
 
 /// Reusable memory.
