@@ -25,7 +25,6 @@ constexpr double kRmsAllowance = 0.03;
 constexpr double kNoiseGrowth = 1.3;
 /// Two planes explain noise hardly better than one: their rms stays above this share.
 constexpr double kNoiseShare = 0.65;
-constexpr double kMostNoise = 0.85;
 /// Second and third ball: flat below this rms.
 constexpr double kFlatRmsOf[] = {kFlatRms, 0.3, 0.5};
 

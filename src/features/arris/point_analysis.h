@@ -24,6 +24,8 @@ constexpr double kNearCentredShare = 0.1;
 /// More points than this in a ball are not a surface seen at its spacing.
 constexpr double kMostBallPoints = 16384.0;
 constexpr double kLeastBallMembers = 6.0;
+/// Noise above this rms, spacings, is not told from other scatter.
+constexpr double kMostNoise = 0.85;
 
 /// A contour found at the point.
 struct PointContour {

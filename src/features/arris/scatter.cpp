@@ -8,7 +8,6 @@
 namespace arris {
 namespace {
 
-constexpr double kMostNoise = 0.85;
 /// Share of the scatter that a bent surface leaves, at most, of a fold in the first and in the near ball.
 constexpr double kBendShare = 0.9;
 constexpr double kNearBendShare = 0.8;
