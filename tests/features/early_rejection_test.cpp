@@ -1,5 +1,5 @@
-/// @file What the method `arris` does for many points at once, or leaves out because it cannot matter, against the plain
-/// way: one by one, sorted, all of it.
+/// @file What the method `arris` does for many points at once, or leaves out because it cannot matter, against the
+/// plain way: one by one, sorted, all of it.
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -29,11 +29,21 @@ std::vector<Vector3> any_surface(std::uint64_t seed) {
   Random random(seed);
   std::vector<Vector3> points;
   switch (random.below(6)) {
-    case 0: points = test::plane_points(seed); break;
-    case 1: points = test::fold_points(random.in(40.0, 170.0), seed); break;
-    case 2: points = test::layer_points(random.in(0.5, 4.0), seed); break;
-    case 3: points = test::rim_points(random.in(3.0, 12.0), seed); break;
-    case 4: points = test::column_points(random.in(3.0, 12.0), seed); break;
+    case 0:
+      points = test::plane_points(seed);
+      break;
+    case 1:
+      points = test::fold_points(random.in(40.0, 170.0), seed);
+      break;
+    case 2:
+      points = test::layer_points(random.in(0.5, 4.0), seed);
+      break;
+    case 3:
+      points = test::rim_points(random.in(3.0, 12.0), seed);
+      break;
+    case 4:
+      points = test::column_points(random.in(3.0, 12.0), seed);
+      break;
     default:
       for (int i = 0; i < 600; ++i) points.push_back({random.in(-6, 6), random.in(-6, 6), random.in(-6, 6)});
   }
