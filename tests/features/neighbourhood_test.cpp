@@ -8,6 +8,7 @@
 #include "features/neighbourhood/ball_moments.h"
 #include "features/neighbourhood/candidate_set.h"
 #include "features/neighbourhood/local_spacing.h"
+#include "features/neighbourhood/nearest_distances.h"
 #include "features/neighbourhood/nearest_select.h"
 #include "random_clouds.h"
 
@@ -139,15 +140,26 @@ TYPED_TEST(Kernels, Nearest_AgreeWithSortingAll) {
   }
 }
 
+/// Sums of the larger balls go on in double after a few vectors of floats, or are made in double at once.
 TYPED_TEST(Kernels, BallMoments_AreExact) {
-  const TilePoints tile = test::tile_of(random_positions(Shape::kFold, 1500, 800.0, 10), 1);
-  const PointTree tree = tree_of(tile);
-  CandidateSet<TypeParam> candidates;
-  const LatticePoint centre = tree.position(77);
-  const ClosedBox box{{centre.x, centre.y, centre.z}, {centre.x, centre.y, centre.z}};
-  for (const double radius : {0.0, 3.0, 60.7, 250.0}) {
+  struct Case {
+    double extent, radius;
+  };
+  for (const auto [extent, radius] : {Case{800.0, 0.0},
+                                      {800.0, 3.0},
+                                      {800.0, 60.7},
+                                      {800.0, 250.0},
+                                      {800.0, 700.0},
+                                      {1600.0, 1400.0},
+                                      {1700.0, 1500.0},
+                                      {5000.0, 4000.0}}) {
+    const TilePoints tile = test::tile_of(random_positions(Shape::kFold, 1500, extent, 10), 1);
+    const PointTree tree = tree_of(tile);
+    CandidateSet<TypeParam> candidates;
+    const LatticePoint centre = tree.position(77);
+    const ClosedBox box{{centre.x, centre.y, centre.z}, {centre.x, centre.y, centre.z}};
     ASSERT_TRUE(candidates.gather(tree, box, radius));
-    ASSERT_TRUE(ball_sums_are_exact<TypeParam>(radius, candidates.count));
+    ASSERT_TRUE(ball_sums_are_exact<TypeParam>(radius));
     const auto radius2 = static_cast<std::uint64_t>(radius * radius);
     BallQuery<TypeParam> ball{static_cast<TypeParam>(centre.x - candidates.origin[0]),
                               static_cast<TypeParam>(centre.y - candidates.origin[1]),
@@ -176,6 +188,43 @@ TYPED_TEST(Kernels, BallMoments_AreExact) {
     EXPECT_GE(extent_bound(candidates, ball, e), high - low);
     std::vector<std::uint32_t> members;
     EXPECT_EQ(ball_members(candidates, ball, members), static_cast<std::size_t>(n));
+  }
+}
+
+TYPED_TEST(Kernels, NearestDistances_AreThoseOfTheNeighbours) {
+  for (const Shape shape : {Shape::kGrid, Shape::kFold}) {  // Grids are full of ties.
+    const TilePoints tile = test::tile_of(random_positions(shape, 900, 600.0, 3), 1);
+    const PointTree tree = tree_of(tile);
+    for (const std::size_t slot : {0U, 5U, 300U, 899U}) {
+      const LatticePoint at = tree.position(slot);
+      CandidateSet<TypeParam> candidates;
+      ASSERT_TRUE(candidates.gather(tree, {{at.x, at.y, at.z}, {at.x, at.y, at.z}}, 1000.0));
+      NearestQuery<TypeParam> query;
+      query.x = static_cast<TypeParam>(at.x - candidates.origin[0]);
+      query.y = static_cast<TypeParam>(at.y - candidates.origin[1]);
+      query.z = static_cast<TypeParam>(at.z - candidates.origin[2]);
+      for (const std::size_t k : {1U, 20U, 200U, 1000U}) {
+        for (const int guess : {1, 900, 20000, 1000000}) {
+          query.k = k;
+          query.max_d2 = 1000000;
+          query.guess_d2 = static_cast<TypeParam>(guess);
+          NearestScratch<TypeParam> scratch;
+          Neighbours neighbours;
+          NearestDistances distances;
+          neighbours.reserve(k);
+          distances.reserve(k);
+          select_nearest(tree, candidates, query, scratch, neighbours);
+          select_nearest(tree, candidates, query, scratch, distances);
+          ASSERT_EQ(distances.count, neighbours.count);
+          EXPECT_EQ(distances.last_d2, neighbours.last_d2);
+          for (std::size_t i = 0; i < distances.count; ++i) ASSERT_EQ(distances.d2[i], neighbours.d2[i]);
+          if (distances.count > 0) {
+            neighbours.count = std::min<std::size_t>(neighbours.count, 200);
+            EXPECT_EQ(density_spacing(distances.d2.data(), neighbours.count), local_spacing(neighbours).density);
+          }
+        }
+      }
+    }
   }
 }
 

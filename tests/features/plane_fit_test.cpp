@@ -6,8 +6,10 @@
 #include <Eigen/Dense>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "ball_testing.h"
+#include "features/neighbourhood/plane_fits.h"
 
 namespace arris {
 namespace {
@@ -69,12 +71,13 @@ RC_GTEST_PROP(PlaneFit, AnyOrder_GivesTheSameExactSums, (std::uint64_t seed)) {
   RC_ASSERT(same(sum_near_plane(points, 6.0, a, 0.5), close));
   RC_ASSERT(same(sum_near_plane(shuffled, 6.0, a, 0.5), close));
 
+  RC_ASSERT(count_near_plane(points, 6.0, a, 0.5) == close.n);
+
   const PointSums side = summed(points, on_a);
-  const PointSums other = summed(points, [&](double x, double y, double z) { return !on_a(x, y, z); });
+  const PointSums all = summed(points, [](double, double, double) { return true; });
   for (const BallPoints* p : {&points, &shuffled}) {
-    const SplitSums sums = sum_split(*p, split);
-    RC_ASSERT(same(sums.a, side));
-    RC_ASSERT(same(sums.b, other));
+    RC_ASSERT(same(sum_side(*p, split), side));
+    RC_ASSERT(same(sum_all(*p), all));
     const SplitSums gated = sum_split(*p, split, a, b, 1.0);
     RC_ASSERT(same(
         gated.a, summed(points, [&](double x, double y, double z) { return on_a(x, y, z) && near(a, x, y, z, 1.0); })));
@@ -84,6 +87,37 @@ RC_GTEST_PROP(PlaneFit, AnyOrder_GivesTheSameExactSums, (std::uint64_t seed)) {
   }
   RC_ASSERT(std::bit_cast<std::uint64_t>(mean_cut_square(points, split, a, b, 1.5)) ==
             std::bit_cast<std::uint64_t>(mean_cut_square(shuffled, split, a, b, 1.5)));
+}
+
+RC_GTEST_PROP(PlaneFit, ManyAtOnce_HaveTheBitsOfOneByOne, (std::uint64_t seed)) {
+  Random random(seed);
+  std::vector<PointSums> sums;
+  const auto count = 1 + random.below(20);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    std::vector<Vector3> cloud = any_cloud(seed + i);
+    switch (random.below(4)) {  // A string, an axis-aligned plane, a single point, and nothing special.
+      case 0:
+        std::erase_if(cloud, [](const Vector3& p) { return p[0] < 0.0; });
+        for (Vector3& p : cloud) p = {p[0], 2.0 * p[0], 0.0};
+        break;
+      case 1:
+        for (Vector3& p : cloud) p[2] = 0.0;
+        break;
+      case 2:
+        cloud.resize(1);
+        break;
+      default:
+        test::rotate(test::any_rotation(seed + i), cloud);
+    }
+    sums.push_back(sum_all(test::ball_of(cloud)));
+  }
+  std::vector<FittedPlane> planes(sums.size());
+  fit_planes(sums, planes);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (sums[i].n == 0.0) continue;
+    const FittedPlane one = fit_plane(sums[i]);
+    RC_ASSERT(std::memcmp(&planes[i], &one, sizeof one) == 0);
+  }
 }
 
 RC_GTEST_PROP(PlaneFit, AnyCloud_HasThePlaneOfEigensSolver, (std::uint64_t seed)) {

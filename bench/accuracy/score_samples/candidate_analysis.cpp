@@ -27,7 +27,6 @@ constexpr double kRmsGrowth = 1.4;
 constexpr double kRmsAllowance = 0.03;
 constexpr double kNoiseGrowth = 1.3;
 constexpr double kNoiseShare = 0.65;
-constexpr double kMostNoise = 0.85;
 constexpr double kFlatRmsOf[] = {kFlatRms, 0.3, 0.5};
 constexpr double kLeastRimWidth = 0.7;
 constexpr double kMostRimNoise = 0.5;

@@ -16,54 +16,54 @@ constexpr std::size_t kSpacingNeighbours = 20;
 /// Larger balls of up to this many median spacings of a group share their candidates.
 constexpr double kCommonSpacing = 1.2;
 
-struct BallShape {
-  double count = 0.0;
-  double rms = 0.0;         ///< About the plane, spacings.
-  double middle_rms = 0.0;  ///< Spread along the shorter direction of the plane.
-  double off_centre = 0.0;  ///< Distance of the mean from the centre, radii.
-};
+/// What the shape of a point's first ball says before any point of it is looked at; false: it is no contour point.
+bool may_be_contour(const BallShape& whole, PointProspects& prospects) {
+  if (whole.count < kLeastBallMembers || whole.count > kMostBallPoints) return false;
+  prospects = {};
+  prospects.rms = whole.rms;
+  prospects.near_rms = whole.rms;
+  prospects.off_centre = whole.off_centre;
+  prospects.fold = whole.rms >= kFlatRms;
+  return prospects.fold || whole.off_centre >= kCentredShare;
+}
 
-BallShape shape_of(const BallMoments& m, double radius, double spacing) {
-  BallShape shape;
-  shape.count = m.n;
-  const Eigenvalues<double> values = eigenvalues_of(m.covariance());
-  shape.rms = std::sqrt(std::max(values.smallest, 0.0)) / spacing;
-  shape.middle_rms = std::sqrt(std::max(values.middle, 0.0)) / spacing;
-  shape.off_centre = std::sqrt(m.x * m.x + m.y * m.y + m.z * m.z) / (m.n * radius);
-  return shape;
+/// The same of the near ball, where the first is not flat.
+bool may_be_contour_near(const BallShape& near, PointProspects& prospects) {
+  prospects.near_rms = near.rms;
+  const bool flat = near.count >= kLeastBallMembers && near.rms < kNearFlatRms && near.middle_rms > kLeastNearWidth;
+  if (!flat) return true;
+  prospects.fold = false;
+  prospects.rms = near.rms;
+  return near.off_centre >= kNearCentredShare;
 }
 
 }  // namespace
 
-/// The balls around one point: the first from the candidates of its group, larger ones on demand.
+/// The balls around one point: the first one is there, larger ones come on demand.
 class ArrisRunner::Balls : public BallProvider {
  public:
-  Balls(ArrisRunner& runner, const Ball& centre, double spacing)
-      : runner_(runner), centre_(centre), spacing_(spacing) {}
-
-  template <class T>
-  void collect_first(const CandidateSet<T>& candidates, const BallQuery<T>& query) {
-    collect_ball(candidates, query, spacing_, runner_.points_[0]);
-    known_[0] = true;
-  }
+  Balls(ArrisRunner& runner, const Ball& centre, double spacing, const BallPoints& first)
+      : runner_(runner), centre_(centre), spacing_(spacing), first_(first) {}
 
   const BallPoints* ball(int level) override {
-    if (known_[level]) return &runner_.points_[level];
+    if (level == 0) return &first_;
+    BallPoints& points = runner_.points_[level - 1];
+    if (known_[level - 1]) return &points;
     const double radius = std::min(kBallRadii[level] * spacing_, runner_.task_.max_reach);
     if (!runner_.seen(centre_.slot, radius)) return nullptr;
     SharedBalls& balls = level == 1 ? runner_.second_balls_ : runner_.third_balls_;
-    balls.run({centre_.slot, radius, 0}, [&](const auto& candidates, const auto& query) {
-      collect_ball(candidates, query, spacing_, runner_.points_[level]);
-    });
-    known_[level] = true;
-    return &runner_.points_[level];
+    balls.run({centre_.slot, radius, 0},
+              [&](const auto& candidates, const auto& query) { collect_ball(candidates, query, spacing_, points); });
+    known_[level - 1] = true;
+    return &points;
   }
 
  private:
   ArrisRunner& runner_;
   const Ball& centre_;
   double spacing_;
-  bool known_[3] = {false, false, false};
+  const BallPoints& first_;
+  bool known_[2] = {false, false};
 };
 
 ArrisRunner::ArrisRunner(const ArrisTask& task)
@@ -76,8 +76,8 @@ ArrisRunner::ArrisRunner(const ArrisTask& task)
 void ArrisRunner::run(std::span<const std::uint32_t> slots) {
   balls_.clear();
   spacings_.clear();
-  neighbour_search_.run(slots,
-                        [this](std::uint32_t slot, const Neighbours& neighbours) { use_neighbours(slot, neighbours); });
+  neighbour_search_.run(
+      slots, [this](std::uint32_t slot, const NearestDistances& neighbours) { use_neighbours(slot, neighbours); });
   if (balls_.empty()) return;
   std::vector<double>& sorted = sorted_spacings_;
   sorted.assign(spacings_.begin(), spacings_.end());
@@ -85,8 +85,9 @@ void ArrisRunner::run(std::span<const std::uint32_t> slots) {
   const double common = kCommonSpacing * sorted[sorted.size() / 2];
   second_balls_.begin(balls_, std::min(kBallRadii[1] * common, task_.max_reach));
   third_balls_.begin(balls_, std::min(kBallRadii[2] * common, task_.max_reach));
-  ball_search_.run(
-      balls_, [this](const auto& candidates, const auto& query, const Ball& ball) { test(candidates, query, ball); });
+  ball_search_.run_groups(balls_, [this](const auto& candidates, const auto& queries, std::span<const Ball> balls) {
+    test_group(candidates, queries, balls);
+  });
 }
 
 /// True if every point within `reach` steps is in the tree.
@@ -101,7 +102,7 @@ void ArrisRunner::leave_unproven(std::uint32_t slot, double reach) {
   unproven_.push_back({task_.tree.id(slot), task_.tree.position(slot), static_cast<std::int64_t>(rounded)});
 }
 
-void ArrisRunner::use_neighbours(std::uint32_t slot, const Neighbours& neighbours) {
+void ArrisRunner::use_neighbours(std::uint32_t slot, const NearestDistances& neighbours) {
   if (neighbours.count < kSpacingNeighbours) {
     if (seen(slot, task_.max_reach)) {
       isolated_.push_back(slot);
@@ -111,7 +112,7 @@ void ArrisRunner::use_neighbours(std::uint32_t slot, const Neighbours& neighbour
     return;
   }
   const double spacing = task_.parameters.spacing > 0.0 ? task_.parameters.spacing / task_.lattice.step
-                                                        : local_spacing(neighbours).density;
+                                                        : density_spacing(neighbours.d2.data(), neighbours.count);
   const double last = std::sqrt(static_cast<double>(neighbours.last_d2));
   // Unseen points can only bring the last neighbour closer and so make all balls smaller.
   const double widest = std::max(last, std::min(kBallRadii[2] * spacing, task_.max_reach));
@@ -124,39 +125,72 @@ void ArrisRunner::use_neighbours(std::uint32_t slot, const Neighbours& neighbour
   spacings_.push_back(spacing);
 }
 
+/// First what moments tell, of all balls together; then what is left, one by one.
 template <class T>
-void ArrisRunner::test(const CandidateSet<T>& candidates, const BallQuery<T>& query, const Ball& ball) {
-  const double spacing = spacings_[ball.query];
-  const BallShape whole = shape_of(ball_moments(candidates, query), ball.radius, spacing);
-  if (whole.count < kLeastBallMembers || whole.count > kMostBallPoints) return;
-  PointProspects prospects;
-  prospects.rms = whole.rms;
-  prospects.near_rms = whole.rms;
-  prospects.off_centre = whole.off_centre;
-  if (whole.rms < kFlatRms) {
-    if (whole.off_centre < kCentredShare) return;
-    prospects.fold = false;
-  } else {
-    BallQuery<T> near = query;
-    const double near_radius = ball.radius * (kNearRadius / kBallRadii[0]);
-    near.radius2 = static_cast<T>(static_cast<std::uint64_t>(near_radius * near_radius));
-    const BallShape close = shape_of(ball_moments(candidates, near), near_radius, spacing);
-    prospects.near_rms = close.rms;
-    if (close.count >= kLeastBallMembers && close.rms < kNearFlatRms && close.middle_rms > kLeastNearWidth) {
-      if (close.off_centre < kNearCentredShare) return;
-      prospects.fold = false;
-      prospects.rms = close.rms;
-    }
+void ArrisRunner::test_group(const CandidateSet<T>& candidates, std::span<const BallQuery<T>> queries,
+                             std::span<const Ball> balls) {
+  measures_.clear();
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    measures_.push_back({ball_moments(candidates, queries[i]), balls[i].radius, spacings_[balls[i].query]});
   }
-  Balls balls(*this, ball, spacing);
-  balls.collect_first(candidates, query);
+  shapes_.resize(balls.size());
+  measure_shapes(measures_, shapes_);
+  measures_.clear();
+  prospects_.resize(balls.size());
+  left_.clear();
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    if (!may_be_contour(shapes_[i], prospects_[i])) continue;
+    left_.push_back(i);
+    if (!prospects_[i].fold) continue;
+    BallQuery<T> near = queries[i];
+    const double radius = balls[i].radius * (kNearRadius / kBallRadii[0]);
+    near.radius2 = static_cast<T>(static_cast<std::uint64_t>(radius * radius));
+    measures_.push_back({ball_moments(candidates, near), radius, spacings_[balls[i].query]});
+  }
+  shapes_.resize(measures_.size());
+  measure_shapes(measures_, shapes_);
+  std::size_t near = 0;
+  std::erase_if(
+      left_, [&](std::size_t i) { return prospects_[i].fold && !may_be_contour_near(shapes_[near++], prospects_[i]); });
+  for (std::span<const std::size_t> left(left_); !left.empty();) {
+    const std::size_t count = std::min(left.size(), std::size(first_points_));
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = left[k];
+      collect_ball(candidates, queries[i], spacings_[balls[i].query], first_points_[k]);
+    }
+    look_for_scatter(left.first(count));
+    for (std::size_t k = 0; k < count; ++k) test(balls[left[k]], prospects_[left[k]], first_points_[k]);
+    left = left.subspan(count);
+  }
+}
+
+/// Settles whether the points of the first balls scatter. `indices`: of the balls, in the order of first_points_.
+void ArrisRunner::look_for_scatter(std::span<const std::size_t> indices) {
+  if (!task_.parameters.fold) return;
+  const BallPoints* asked[std::size(first_points_)];
+  PointProspects* prospects[std::size(first_points_)];
+  std::uint8_t scatters[std::size(first_points_)];
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    PointProspects& p = prospects_[indices[k]];
+    if (!may_scatter(p)) continue;
+    asked[n] = &first_points_[k];
+    prospects[n++] = &p;
+  }
+  find_scatter(std::span(asked, n), scatter_scratch_, std::span(scatters, n));
+  for (std::size_t k = 0; k < n; ++k) prospects[k]->scatter = scatters[k] != 0;
+}
+
+void ArrisRunner::test(const Ball& ball, const PointProspects& prospects, const BallPoints& first) {
+  const double spacing = spacings_[ball.query];
+  Balls balls(*this, ball, spacing, first);
   PointContour contour;
   if (!analyse_point(prospects, balls, scratch_, task_.parameters.fold, task_.parameters.boundary, contour)) {
     leave_unproven(ball.slot, std::min(kBallRadii[2] * spacing, task_.max_reach));
     return;
   }
   if (contour.kind == PointContour::Kind::kNone || contour.score < task_.parameters.min_score) return;
-  if (task_.parameters.thin && !leads_chain(points_[0], contour)) return;
+  if (task_.parameters.thin && !leads_chain(first, contour)) return;
   record(ball, contour);
 }
 

@@ -7,9 +7,12 @@
 
 #include "core/lattice.h"
 #include "features/arris/arris_parameters.h"
+#include "features/arris/ball_shape.h"
 #include "features/arris/point_analysis.h"
+#include "features/arris/scatter.h"
 #include "features/contour/tile_contours.h"
 #include "features/neighbourhood/ball_search.h"
+#include "features/neighbourhood/nearest_distances.h"
 #include "features/neighbourhood/neighbour_search.h"
 #include "features/neighbourhood/point_tree.h"
 
@@ -45,22 +48,31 @@ class ArrisRunner {
  private:
   class Balls;
 
-  void use_neighbours(std::uint32_t slot, const Neighbours& neighbours);
+  void use_neighbours(std::uint32_t slot, const NearestDistances& neighbours);
   template <class T>
-  void test(const CandidateSet<T>& candidates, const BallQuery<T>& query, const Ball& ball);
+  void test_group(const CandidateSet<T>& candidates, std::span<const BallQuery<T>> queries,
+                  std::span<const Ball> balls);
+  void look_for_scatter(std::span<const std::size_t> indices);
+  void test(const Ball& ball, const PointProspects& prospects, const BallPoints& first);
   void record(const Ball& ball, const PointContour& contour);
   std::uint8_t side_of(std::uint32_t slot, const FoldLine& line) const;
   bool seen(std::uint32_t slot, double reach) const;
   void leave_unproven(std::uint32_t slot, double reach);
 
   ArrisTask task_;
-  NeighbourSearch neighbour_search_;
+  NearestSearch<NearestDistances> neighbour_search_;
   BallSearch ball_search_;
   SharedBalls second_balls_, third_balls_;  ///< Of the group whose first balls are being tested.
   std::vector<Ball> balls_;
   std::vector<double> spacings_;  ///< Of the balls' points, steps.
   std::vector<double> sorted_spacings_;
-  BallPoints points_[3];
+  std::vector<BallMeasure> measures_;  ///< Of the balls of a group, then of the near balls of some.
+  std::vector<BallShape> shapes_;
+  std::vector<PointProspects> prospects_;
+  std::vector<std::size_t> left_;  ///< Balls of the group that may be contours.
+  BallPoints first_points_[8];     ///< Of as many points as are tested for scatter together.
+  BallPoints points_[2];           ///< Of the larger balls of one point.
+  ScatterScratch scatter_scratch_;
   AnalysisScratch scratch_;
   std::vector<Found> found_;
   std::vector<std::uint32_t> isolated_;

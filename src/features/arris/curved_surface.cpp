@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "features/numerics/exact_sums.h"
 #include "features/numerics/least_squares.h"
 
 namespace arris {
@@ -33,11 +34,11 @@ struct SumProducts {
       w = on_grid<kOffsetBits>(real * w);
       const V terms[kTerms] = {real, v, t, v * v, t * t, w};
       for (int a = 0; a < kTerms; ++a) {
-        for (int b = 0; b <= a; ++b) sums[a][b] += terms[a] * terms[b];
+        for (int b = 0; b <= a; ++b) sums[a][b] = simd::exact_multiply_add(terms[a], terms[b], sums[a][b]);
       }
     }
     for (int a = 0; a < kTerms; ++a) {
-      for (int b = 0; b <= a; ++b) out[a][b] = simd::lane_sum(sums[a][b]);
+      for (int b = 0; b <= a; ++b) out[a][b] = simd::exact_lane_sum(sums[a][b]);
     }
   }
 };

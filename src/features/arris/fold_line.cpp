@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 #include "features/numerics/exact_math.h"
+#include "features/numerics/exact_sums.h"
 #include "features/numerics/least_squares.h"
 
 namespace arris {
@@ -39,6 +41,7 @@ struct ArmSurface {
 /// Sums for the least squares of one arm over the regressors 1, u, t, t².
 struct ArmSums {
   double n = 0, u = 0, t = 0, t2 = 0, uu = 0, ut = 0, ut2 = 0, t3 = 0, t4 = 0, w = 0, wu = 0, wt = 0, wt2 = 0, ww = 0;
+  bool operator==(const ArmSums&) const = default;
 };
 
 /// The frame of both arms: origin at the point of the line that is nearest to the centre, `t` along the line, `away`
@@ -82,7 +85,7 @@ struct SumArms {
     }
     for (int k = 0; k < 2; ++k) {
       double total[14];
-      for (int j = 0; j < 14; ++j) total[j] = simd::lane_sum(sums[k].v[j]);
+      for (int j = 0; j < 14; ++j) total[j] = simd::exact_lane_sum(sums[k].v[j]);
       std::memcpy(&out[k], total, sizeof total);
     }
   }
@@ -98,16 +101,11 @@ struct SumArms {
     s.v[1] += u;
     s.v[2] += t;
     s.v[3] += t2;
-    s.v[4] += u * u;
-    s.v[5] += u * t;
-    s.v[6] += u * t2;
-    s.v[7] += t2 * t;
-    s.v[8] += t2 * t2;
     s.v[9] += w;
-    s.v[10] += w * u;
-    s.v[11] += w * t;
-    s.v[12] += w * t2;
-    s.v[13] += w * w;
+    const V factors[][2] = {{u, u}, {u, t}, {u, t2}, {t2, t}, {t2, t2}};
+    for (int k = 0; k < 5; ++k) s.v[4 + k] = simd::exact_multiply_add(factors[k][0], factors[k][1], s.v[4 + k]);
+    const V beside_w[] = {u, t, t2, w};
+    for (int k = 0; k < 4; ++k) s.v[10 + k] = simd::exact_multiply_add(w, beside_w[k], s.v[10 + k]);
   }
 };
 
@@ -120,15 +118,17 @@ double fit_arm(const ArmSums& s, ArmSurface& surface) {
     for (int i = 0; i < size; ++i) sum -= x[i] * y[i];
     return std::max(sum, 0.0);
   };
+  const CholeskyFactor<4> factor(m);
+  if (factor.independent() < 3) return -1.0;
   double flat[4] = {};
-  double variance = 0.0;
-  if (!solve_normal_equations<4>(m, y, 3, flat, variance)) return -1.0;
+  factor.solve(y, 3, flat);
   surface = {flat[0], flat[1], flat[2], 0.0};
-  double bent[4] = {};
-  if (solve_normal_equations<4>(m, y, 4, bent, variance)) {
+  if (factor.independent() == 4) {
+    double bent[4] = {};
+    factor.solve(y, 4, bent);
     const double left = residuals(bent, 4);
     const double noise2 = std::max(left / std::max(s.n - 4.0, 1.0), 1e-9);
-    if (bent[3] * bent[3] > kBendSignificance * noise2 * variance) {
+    if (bent[3] * bent[3] > kBendSignificance * noise2 * factor.last_variance(4)) {
       surface = {bent[0], bent[1], bent[2], bent[3]};
       return left;
     }
@@ -228,9 +228,13 @@ bool refine_fold(const BallPoints& points, const PlanePair& pair, FoldLine& line
   ArmSurface surfaces[2];
   const double gate = std::max(kGateDeviations * pair.rms, kLeastGate);
   double squares = 0.0;
+  ArmSums before[2];
   for (int round = 0; round < kRounds; ++round) {
     ArmSums sums[2];
     simd::dispatch<SumArms>(points, frame, surfaces, gate, sums);
+    // The same sums give the same surfaces, in this round and in all that follow.
+    if (round > 0 && sums[0] == before[0] && sums[1] == before[1]) break;
+    std::copy(std::begin(sums), std::end(sums), before);
     squares = 0.0;
     for (int k = 0; k < 2; ++k) {
       if (sums[k].n < kLeastArmPoints) return false;

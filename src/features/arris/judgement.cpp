@@ -49,6 +49,14 @@ double significant_gap_deg(double n) {
   return 360.0 * (1.0 - sum);
 }
 
+bool has_wide_gap(const RimShape& rim) {
+  return rim.gap_deg >= kLeastGap_deg && rim.gap_deg >= significant_gap_deg(rim.count);
+}
+
+bool is_thin(const RimShape& rim) {
+  return rim.inner_share >= kLeastHoleInnerShare && rim.rms <= kMostHoleRms;
+}
+
 }  // namespace
 
 bool judge_fold(const FoldFit& fit, const BallPoints& points, PointContour& contour) {
@@ -84,14 +92,18 @@ bool judge_fold(const FoldFit& fit, const BallPoints& points, PointContour& cont
   return true;
 }
 
-bool judge_rim(const RimShape& rim, double noise, PointContour& contour) {
+bool may_be_rim(const RimShape& rim) {
+  if (rim.gap_deg <= 0.0) return false;
   if (rim.count < kLeastAzimuths || rim.inner_share < kLeastInnerShare || rim.offset > rim.gate) return false;
   if (rim.width < kLeastRimWidth || rim.beyond_share > kMostBeyondShare) return false;
-  const bool open =
-      rim.gap_deg >= std::max(kLeastGap_deg, significant_gap_deg(rim.count)) &&
-      (rim.depth <= kMostDepth || rim.gap_deg >= kCertainGap_deg || rim.empty_radius >= kLeastEmptyRadius);
-  const bool small_hole = rim.empty_radius >= kLeastHoleRadius && rim.opposite >= kLeastOpposite &&
-                          rim.inner_share >= kLeastHoleInnerShare && rim.rms <= kMostHoleRms;
+  return has_wide_gap(rim) || is_thin(rim);
+}
+
+bool judge_rim(const RimShape& rim, double noise, PointContour& contour) {
+  if (!may_be_rim(rim)) return false;
+  const bool open = has_wide_gap(rim) && (rim.depth <= kMostDepth || rim.gap_deg >= kCertainGap_deg ||
+                                          rim.empty_radius >= kLeastEmptyRadius);
+  const bool small_hole = is_thin(rim) && rim.empty_radius >= kLeastHoleRadius && rim.opposite >= kLeastOpposite;
   if (!open && !small_hole) return false;
   contour.kind = PointContour::Kind::kBoundary;
   contour.gap_deg = rim.gap_deg;

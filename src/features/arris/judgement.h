@@ -23,6 +23,9 @@ struct FoldFit {
 /// True if the fit is a fold next to the point; then `contour` is it, with its score. O(points of the ball).
 bool judge_fold(const FoldFit& fit, const BallPoints& points, PointContour& contour);
 
+/// False if judge_rim() would say no whatever measure_beside_gap() finds.
+bool may_be_rim(const RimShape& rim);
+
 /// True if the point lies on the rim of its surface; then `contour` is it, with its score.
 /// @param noise  with which the rim was measured.
 bool judge_rim(const RimShape& rim, double noise, PointContour& contour);

@@ -13,6 +13,8 @@ struct LayerScratch {
     double d2, x, y, z;
   };
   std::vector<Near> nearest;
+  std::vector<FittedPlane> candidates;
+  BallPoints disc;
 };
 
 /// The plane of the layer that holds the centre, found from the centre outwards: a plane through its nearest

@@ -4,13 +4,17 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
+
+#include "features/neighbourhood/plane_fits.h"
 
 namespace arris {
 namespace {
 
 constexpr int kRounds = 3;
 /// Of the starts, so many best ones after the first round are followed to the end.
-constexpr int kFollowedStarts = 2;
+constexpr std::size_t kFollowedStarts = 2;
+constexpr std::size_t kStarts = 5;
 /// Points farther from their arm than this many rms, but at least so many spacings, are left out of the next fit.
 constexpr double kGateDeviations = 2.5;
 constexpr double kLeastGate = 0.3;
@@ -57,56 +61,84 @@ bool parallel_within(const FittedPlane& a, const FittedPlane& b, double radius) 
   return distance2 > radius * radius;
 }
 
-/// Fits both planes to the sums of their sides and splits at their bisector.
-/// @param square  mean squared distance of the points to the plane of their side.
-bool refit(const SplitSums& sums, PlanePair& pair, double& square) {
-  if (sums.a.n < kLeastArmPoints || sums.b.n < kLeastArmPoints) return false;
-  pair.a = fit_plane(sums.a);
-  pair.b = fit_plane(sums.b);
-  square = (pair.a.rms * pair.a.rms * sums.a.n + pair.b.rms * pair.b.rms * sums.b.n) / (sums.a.n + sums.b.n);
-  return bisect(pair.a, pair.b, pair.split);
-}
-
-struct Start {
+/// A pair on its way from a start to the end.
+struct Way {
   PlanePair pair;
-  double square = std::numeric_limits<double>::infinity();  ///< After the first round; infinite: given up.
+  SplitSums sums;
+  double square = std::numeric_limits<double>::infinity();  ///< After the last round; infinite: given up.
   bool along_plane = false;
 };
+
+/// Fits both planes of every way to the sums of their sides, and splits at their bisector.
+void refit(std::span<Way> ways) {
+  PointSums sums[2 * kStarts];
+  FittedPlane planes[2 * kStarts];
+  std::size_t n = 0;
+  for (const Way& way : ways) {
+    for (const PointSums& side : {way.sums.a, way.sums.b}) sums[n++] = side;
+  }
+  fit_planes(std::span(sums, n), std::span(planes, n));
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    Way& way = ways[i];
+    way.square = std::numeric_limits<double>::infinity();
+    const FittedPlane& a = planes[2 * i];
+    const FittedPlane& b = planes[2 * i + 1];
+    if (way.sums.a.n < kLeastArmPoints || way.sums.b.n < kLeastArmPoints) continue;
+    way.pair.a = a;
+    way.pair.b = b;
+    if (!bisect(a, b, way.pair.split)) continue;
+    way.square = (a.rms * a.rms * a.count + b.rms * b.rms * b.count) / (a.count + b.count);
+  }
+}
+
+/// Moves the ways that are given up to the end and leaves them out; the others stay in order.
+std::span<Way> drop_given_up(std::span<Way> ways) {
+  const auto end =
+      std::stable_partition(ways.begin(), ways.end(), [](const Way& w) { return std::isfinite(w.square); });
+  return ways.first(static_cast<std::size_t>(end - ways.begin()));
+}
+
+PointSums operator-(const PointSums& a, const PointSums& b) {  // Exact.
+  return {a.n - b.n,   a.x - b.x,   a.y - b.y,   a.z - b.z,   a.xx - b.xx,
+          a.xy - b.xy, a.xz - b.xz, a.yy - b.yy, a.yz - b.yz, a.zz - b.zz};
+}
 
 }  // namespace
 
 PlanePair fit_plane_pair(const BallPoints& points, double radius, const FittedPlane& all) {
   const double diagonal = std::sqrt(0.5);
-  Split starts[5] = {{all.e2, 0.0}, {all.e1, 0.0}, {}, {}, {all.normal, all.offset}};
+  Split starts[kStarts] = {{all.e2, 0.0}, {all.e1, 0.0}, {}, {}, {all.normal, all.offset}};
   for (int axis = 0; axis < 3; ++axis) {
     starts[2].g[axis] = diagonal * (all.e1[axis] + all.e2[axis]);
     starts[3].g[axis] = diagonal * (all.e1[axis] - all.e2[axis]);
   }
-  Start ways[5];
-  for (int i = 0; i < 5; ++i) {
-    Start& way = ways[i];
-    way.pair.split = starts[i];
-    way.along_plane = i == 4;
-    double square = 0.0;
-    if (refit(sum_split(points, way.pair.split), way.pair, square)) way.square = square;
+  Way ways[kStarts];
+  const PointSums whole = sum_all(points);
+  for (std::size_t i = 0; i < kStarts; ++i) {
+    ways[i].pair.split = starts[i];
+    ways[i].along_plane = i == kStarts - 1;
+    const PointSums a = sum_side(points, starts[i]);
+    ways[i].sums = {a, whole - a};
   }
-  std::stable_sort(std::begin(ways), std::end(ways),
-                   [](const Start& a, const Start& b) { return a.square < b.square; });
-  PlanePair best;
-  for (int i = 0; i < kFollowedStarts && std::isfinite(ways[i].square); ++i) {
-    PlanePair& pair = ways[i].pair;
-    double square = ways[i].square;
-    bool alive = true;
-    for (int round = 1; round < kRounds && alive; ++round) {
-      const double gate = std::max(kGateDeviations * std::sqrt(square), kLeastGate);
-      alive = refit(sum_split(points, pair.split, pair.a, pair.b, gate), pair, square);
+  refit(ways);
+  std::stable_sort(std::begin(ways), std::end(ways), [](const Way& a, const Way& b) { return a.square < b.square; });
+  std::span<Way> alive = drop_given_up(std::span(ways, kFollowedStarts));
+  for (int round = 1; round < kRounds; ++round) {
+    for (Way& way : alive) {
+      const double gate = std::max(kGateDeviations * std::sqrt(way.square), kLeastGate);
+      way.sums = sum_split(points, way.pair.split, way.pair.a, way.pair.b, gate);
     }
-    if (!alive) continue;
+    refit(alive);
+    alive = drop_given_up(alive);
+  }
+  PlanePair best;
+  for (Way& way : alive) {
+    PlanePair& pair = way.pair;
     pair.rms = std::sqrt(mean_cut_square(points, pair.split, pair.a, pair.b, kMostDistance));
     pair.kind = PlanePair::Kind::kArms;
     if (parallel_within(pair.a, pair.b, radius)) {
       const double apart = std::fabs(pair.a.distance(pair.b.centroid[0], pair.b.centroid[1], pair.b.centroid[2]));
-      if (!ways[i].along_plane || pair.rms > kLayerRms * apart) continue;
+      if (!way.along_plane || pair.rms > kLayerRms * apart) continue;
       pair.kind = PlanePair::Kind::kLayers;
     }
     if (best.kind == PlanePair::Kind::kNone || pair.rms < best.rms) best = pair;

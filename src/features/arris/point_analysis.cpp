@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "features/arris/judgement.h"
-#include "features/arris/quadric_share.h"
 
 namespace arris {
 namespace {
@@ -26,15 +25,6 @@ constexpr double kRmsAllowance = 0.03;
 constexpr double kNoiseGrowth = 1.3;
 /// Two planes explain noise hardly better than one: their rms stays above this share.
 constexpr double kNoiseShare = 0.65;
-constexpr double kMostNoise = 0.85;
-/// Share of the scatter that a bent surface leaves, at most, of a fold in the first and in the near ball.
-constexpr double kBendShare = 0.9;
-constexpr double kNearBendShare = 0.8;
-/// Scatter is the same in the near and in the first ball; folds, also acute ones that no quadric over one plane
-/// follows, grow by 5 / 3.
-constexpr double kScatterGrowth = 1.35;
-/// Share of the points within half an rms of their plane: 0.38 for noise, about 0 for two layers.
-constexpr double kLeastCoreShare = 0.25;
 /// Second and third ball: flat below this rms.
 constexpr double kFlatRmsOf[] = {kFlatRms, 0.3, 0.5};
 
@@ -71,16 +61,6 @@ bool believable(const LevelFit& larger, const LevelFit& smaller) {
          (larger.arms && (!smaller.arms || larger.line.rms < kRmsGrowth * smaller.line.rms + kRmsAllowance));
 }
 
-/// True if the first ball shows no bend, neither as a whole nor next to the point: its points scatter about a plane.
-bool shows_no_bend(const BallPoints& first) {
-  const FittedPlane near = fit_plane(sum_within(first, kNearRadius));
-  if (quadric_share(first, kNearRadius, near) < kNearBendShare) return false;
-  const FittedPlane all = fit_plane(sum_within(first, kBallRadii[0]));
-  if (quadric_share(first, kBallRadii[0], all) < kBendShare) return false;
-  // Two layers do not bend either, but between them there is nothing.
-  return sum_near_plane(first, kBallRadii[0], all, 0.5 * all.rms).n >= kLeastCoreShare * all.count;
-}
-
 }  // namespace
 
 bool analyse_point(const PointProspects& prospects, BallProvider& balls, AnalysisScratch& scratch, bool want_fold,
@@ -92,7 +72,7 @@ bool analyse_point(const PointProspects& prospects, BallProvider& balls, Analysi
   double noise = prospects.rms < kVolumeRms ? prospects.rms : kUnknownNoise;
   if (prospects.fold && prospects.rms < kVolumeRms && want_fold) {
     LevelFit best;
-    if (prospects.rms < std::min(kMostNoise, kScatterGrowth * prospects.near_rms) && shows_no_bend(*first)) {
+    if (prospects.scatter) {
       if (prospects.off_centre < kCentredShare) return true;
       best.flat = true;
       best.all_rms = prospects.rms;
@@ -130,13 +110,15 @@ bool analyse_point(const PointProspects& prospects, BallProvider& balls, Analysi
     }
   }
   if (want_boundary) {
-    RimShape rim = measure_rim(*first, kBallRadii[0], noise, scratch.rim);
+    RimShape rim = look_for_gap(*first, kBallRadii[0], noise, scratch.rim);
     if (rim.width < kLeastRimWidth &&
         rim.gap_deg >= kLeastGap_deg) {  // A scan line; its neighbours may be in the next ball.
       const BallPoints* second = balls.ball(1);
       if (second == nullptr) return false;
-      rim = measure_rim(*second, kBallRadii[1], noise, scratch.rim);
+      rim = look_for_gap(*second, kBallRadii[1], noise, scratch.rim);
     }
+    if (!may_be_rim(rim)) return true;
+    measure_beside_gap(scratch.rim, rim);
     judge_rim(rim, noise, contour);
   }
   return true;

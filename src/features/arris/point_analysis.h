@@ -24,6 +24,8 @@ constexpr double kNearCentredShare = 0.1;
 /// More points than this in a ball are not a surface seen at its spacing.
 constexpr double kMostBallPoints = 16384.0;
 constexpr double kLeastBallMembers = 6.0;
+/// Noise above this rms, spacings, is not told from other scatter.
+constexpr double kMostNoise = 0.85;
 
 /// A contour found at the point.
 struct PointContour {
@@ -51,6 +53,7 @@ struct PointProspects {
   double near_rms = 0.0;    ///< Of the near ball.
   double off_centre = 1.0;  ///< Distance of the mean of the first ball from its centre, radii.
   bool fold = true;         ///< Folds are possible.
+  bool scatter = false;     ///< The points of the first ball scatter about a plane (scatter.h).
 };
 
 /// Reusable memory.

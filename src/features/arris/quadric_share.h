@@ -1,6 +1,8 @@
 #pragma once
 /// @file Whether points scatter about a plane or bend away from it.
 
+#include <span>
+
 #include "features/neighbourhood/plane_fit.h"
 
 namespace arris {
@@ -11,5 +13,9 @@ namespace arris {
 /// (coordinates are rounded to 1/32 spacing, heights to 1/1024). O(points).
 /// @param plane  fitted to the same points.
 double quadric_share(const BallPoints& points, double radius, const FittedPlane& plane);
+
+/// The same of many balls, as many at once as the processor's vectors hold; same bits as one by one.
+void quadric_shares(std::span<const BallPoints* const> balls, double radius, std::span<const FittedPlane> planes,
+                    std::span<double> shares);
 
 }  // namespace arris

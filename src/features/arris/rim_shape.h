@@ -1,10 +1,12 @@
 #pragma once
 /// @file How the surface that holds a point ends around it: the evidence for boundaries.
 
-#include <utility>
 #include <vector>
 
+#include "features/arris/azimuth_spread.h"
+#include "features/arris/layer_view.h"
 #include "features/arris/own_layer.h"
+#include "features/arris/planar_hull.h"
 
 namespace arris {
 
@@ -26,10 +28,14 @@ struct RimShape {
   Vector3 nearest{0, 0, 0};  ///< The point of the hull that is nearest to the centre: the rim as far as it is sampled.
 };
 
-/// Reusable memory of measure_rim.
+/// Reusable memory, and what look_for_gap() leaves for measure_beside_gap().
 struct RimScratch {
-  std::vector<std::pair<double, double>> seen, inverted, hull;
-  std::vector<double> azimuths;
+  FittedPlane plane;
+  LayerView view;
+  std::vector<double> u, v;  ///< Of the points of the layer that have an azimuth.
+  std::vector<Planar> seen, inverted;
+  AzimuthScratch azimuths;
+  HullScratch hull;
   LayerScratch layer;
 };
 
@@ -41,5 +47,11 @@ struct RimScratch {
 /// Where neither the disc nor its inner 3 spacings may have a gap of 105 degrees, all but count, rms and width is left
 /// at 0.
 RimShape measure_rim(const BallPoints& points, double radius, double noise, RimScratch& scratch);
+
+/// The first half of measure_rim(), which most points need no more than: all that hulls and empty discs do not say.
+/// gap_deg is 0 where there is no gap.
+RimShape look_for_gap(const BallPoints& points, double radius, double noise, RimScratch& scratch);
+/// The second half, of the same points: depth, empty_radius, opposite, direction and nearest. Needs gap_deg > 0.
+void measure_beside_gap(RimScratch& scratch, RimShape& shape);
 
 }  // namespace arris

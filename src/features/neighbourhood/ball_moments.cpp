@@ -1,38 +1,65 @@
 #include "features/neighbourhood/ball_moments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
+
+#include "features/numerics/exact_sums.h"
 
 namespace arris {
 namespace {
 
+/// Adding up in T is worth it if the sums need to go on in double after this many vectors of candidates, or more.
+constexpr double kLeastRow = 8.0;
+
+/// Adds up in vectors of Sum, which is T or double.
+template <class Sum>
 struct SumMembers {
   template <int Bytes, class T>
-  static ARRIS_ALWAYS_INLINE void run(const CandidateSet<T>& c, const BallQuery<T>& ball, BallMoments& out) {
-    using V = typename simd::VectorOf<T, Bytes>::Type;
-    V n{}, x{}, y{}, z{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+  static ARRIS_ALWAYS_INLINE void run(const CandidateSet<T>& c, const BallQuery<T>& ball, std::size_t vectors_in_row,
+                                      BallMoments& out) {
+    constexpr std::size_t kLanes = simd::VectorOf<Sum, Bytes>::kLanes;
     const std::size_t end = simd::padded(c.count);
-    for (std::size_t i = 0; i < end; i += simd::VectorOf<T, Bytes>::kLanes) {
-      V dx = simd::load<V>(c.x.data() + i) - ball.x;
-      V dy = simd::load<V>(c.y.data() + i) - ball.y;
-      V dz = simd::load<V>(c.z.data() + i) - ball.z;
-      const auto inside = (dx * dx + dy * dy + dz * dz) <= ball.radius2;
+    for (std::size_t begin = 0; begin < end;) {
+      const std::size_t stop = std::min(end - begin, vectors_in_row * kLanes) + begin;
+      add_row<Bytes>(c, ball, begin, stop, out);
+      begin = stop;
+    }
+  }
+
+ private:
+  template <int Bytes, class T>
+  static ARRIS_ALWAYS_INLINE void add_row(const CandidateSet<T>& c, const BallQuery<T>& ball, std::size_t begin,
+                                          std::size_t end, BallMoments& out) {
+    using V = typename simd::VectorOf<Sum, Bytes>::Type;
+    constexpr std::size_t kLanes = simd::VectorOf<Sum, Bytes>::kLanes;
+    typedef T Loaded __attribute__((vector_size(kLanes * sizeof(T))));
+    const Sum centre[3] = {ball.x, ball.y, ball.z};
+    const Sum radius2 = ball.radius2;
+    V n{}, x{}, y{}, z{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+    for (std::size_t i = begin; i < end; i += kLanes) {
+      V dx = __builtin_convertvector(simd::load<Loaded>(c.x.data() + i), V) - centre[0];
+      V dy = __builtin_convertvector(simd::load<Loaded>(c.y.data() + i), V) - centre[1];
+      V dz = __builtin_convertvector(simd::load<Loaded>(c.z.data() + i), V) - centre[2];
+      const auto inside = (dx * dx + dy * dy + dz * dz) <= radius2;
       dx = inside ? dx : V{};  // Others add zeros.
       dy = inside ? dy : V{};
       dz = inside ? dz : V{};
-      n += inside ? V{} + T{1} : V{};
+      n += inside ? V{} + Sum{1} : V{};
       x += dx;
       y += dy;
       z += dz;
-      xx += dx * dx;
-      xy += dx * dy;
-      xz += dx * dz;
-      yy += dy * dy;
-      yz += dy * dz;
-      zz += dz * dz;
+      xx = simd::exact_multiply_add(dx, dx, xx);
+      xy = simd::exact_multiply_add(dx, dy, xy);
+      xz = simd::exact_multiply_add(dx, dz, xz);
+      yy = simd::exact_multiply_add(dy, dy, yy);
+      yz = simd::exact_multiply_add(dy, dz, yz);
+      zz = simd::exact_multiply_add(dz, dz, zz);
     }
-    out = {simd::lane_sum(n),  simd::lane_sum(x),  simd::lane_sum(y),  simd::lane_sum(z),  simd::lane_sum(xx),
-           simd::lane_sum(xy), simd::lane_sum(xz), simd::lane_sum(yy), simd::lane_sum(yz), simd::lane_sum(zz)};
+    const V* const sums[] = {&n, &x, &y, &z, &xx, &xy, &xz, &yy, &yz, &zz};
+    double* const totals[] = {&out.n, &out.x, &out.y, &out.z, &out.xx, &out.xy, &out.xz, &out.yy, &out.yz, &out.zz};
+    for (int i = 0; i < 10; ++i) *totals[i] += simd::exact_lane_sum(*sums[i]);
   }
 };
 
@@ -64,11 +91,15 @@ struct Extremes {
   }
 };
 
-void sum(const CandidateSet<float>& c, const BallQuery<float>& b, BallMoments& out) {
-  simd::dispatch<SumMembers>(c, b, out);
-}
-void sum(const CandidateSet<double>& c, const BallQuery<double>& b, BallMoments& out) {
-  simd::dispatch<SumMembers>(c, b, out);
+template <class T>
+void sum(const CandidateSet<T>& c, const BallQuery<T>& b, BallMoments& out) {
+  // A lane adds up one square of at most radius2 per vector.
+  const double largest = std::max(static_cast<double>(b.radius2), 1.0);
+  if (kLeastRow * largest <= kExactSquares<T>) {
+    simd::dispatch<SumMembers<T>>(c, b, static_cast<std::size_t>(kExactSquares<T> / largest), out);
+  } else {
+    simd::dispatch<SumMembers<double>>(c, b, static_cast<std::size_t>(kExactSquares<double> / largest), out);
+  }
 }
 
 /// Exact whatever the sizes: 2^32 points at 2^30 steps need 94 bits.
@@ -100,14 +131,8 @@ SymmetricMatrix<double> BallMoments::covariance() const {
 }
 
 template <class T>
-bool ball_sums_are_exact(double radius, std::size_t count) {
-  if constexpr (std::is_same_v<T, std::int64_t>) {
-    return true;
-  } else {
-    // Every lane adds up at most one term per vector of candidates; whatever the width, so that the narrowest decides.
-    const double terms = static_cast<double>(count / simd::VectorOf<T, 16>::kLanes + 1);
-    return radius * radius < kExactSquares<T> && terms * radius * radius < kExactSquares<T>;
-  }
+bool ball_sums_are_exact(double radius) {
+  return std::is_same_v<T, std::int64_t> || kLeastRow * radius * radius < kExactSquares<double>;
 }
 
 template <class T>
@@ -145,9 +170,9 @@ std::size_t ball_members(const CandidateSet<T>& c, const BallQuery<T>& ball, std
   return n;
 }
 
-template bool ball_sums_are_exact<float>(double, std::size_t);
-template bool ball_sums_are_exact<double>(double, std::size_t);
-template bool ball_sums_are_exact<std::int64_t>(double, std::size_t);
+template bool ball_sums_are_exact<float>(double);
+template bool ball_sums_are_exact<double>(double);
+template bool ball_sums_are_exact<std::int64_t>(double);
 template BallMoments ball_moments(const CandidateSet<float>&, const BallQuery<float>&);
 template BallMoments ball_moments(const CandidateSet<double>&, const BallQuery<double>&);
 template BallMoments ball_moments(const CandidateSet<std::int64_t>&, const BallQuery<std::int64_t>&);

@@ -21,9 +21,10 @@ struct BallMoments {
   SymmetricMatrix<double> covariance() const;
 };
 
-/// Largest sum that partial sums in T must stay below to be exact, for a ball of `radius` steps and `count` candidates.
+/// True if ball_moments are exact for a ball of `radius` steps whose squares are exact in T: always for float, whose
+/// sums are made in double where they must.
 template <class T>
-bool ball_sums_are_exact(double radius, std::size_t count);
+bool ball_sums_are_exact(double radius);
 
 /// Law: bits do not depend on the order of the candidates. Needs ball_sums_are_exact (always true for int64, the slow
 /// exact path).

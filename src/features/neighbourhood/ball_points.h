@@ -33,6 +33,10 @@ struct BallPoints {
   std::size_t count = 0;
 
   std::size_t padded_count() const { return simd::padded(count); }
+  /// Makes room for `most` points and a vector more.
+  void make_room(std::size_t most);
+  /// Sets the number of points and pads the arrays.
+  void finish(std::size_t points);
 };
 
 /// The members of `ball` divided by `spacing` (steps, > 0; the ball's radius is at most kLargestBall of it). A
@@ -40,5 +44,8 @@ struct BallPoints {
 /// coordinates are rounded after the division.
 template <class T>
 void collect_ball(const CandidateSet<T>& candidates, const BallQuery<T>& ball, double spacing, BallPoints& points);
+
+/// The points within `radius` spacings of the centre.
+void keep_within(const BallPoints& points, double radius, BallPoints& kept);
 
 }  // namespace arris

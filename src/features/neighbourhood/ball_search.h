@@ -31,6 +31,15 @@ class BallSearch {
   /// Calls use(candidates, ball query, ball) once per ball, in any order, with a CandidateSet<T>. Reorders `balls`.
   template <class Use>
   void run(std::vector<Ball>& balls, Use&& use) {
+    run_groups(balls, [&use](const auto& candidates, const auto& queries, std::span<const Ball> group) {
+      for (std::size_t i = 0; i < group.size(); ++i) use(candidates, queries[i], group[i]);
+    });
+  }
+
+  /// The same, for whole groups of balls that share their candidates: use(candidates, queries, balls), one query per
+  /// ball.
+  template <class Use>
+  void run_groups(std::vector<Ball>& balls, Use&& use) {
     // Balls of one size together; the few large ones would only burden the others.
     std::sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) {
       return a.radius != b.radius ? a.radius < b.radius : a.slot < b.slot;
@@ -55,31 +64,38 @@ class BallSearch {
     try_group(integers_, balls, use);
   }
 
+  template <class T>
+  struct Workspace {
+    CandidateSet<T> candidates;
+    std::vector<BallQuery<T>> queries;
+  };
+
   /// Balls in ascending order of their radii.
   template <class T, class Use>
-  bool try_group(CandidateSet<T>& candidates, std::span<const Ball> balls, Use& use) {
+  bool try_group(Workspace<T>& work, std::span<const Ball> balls, Use& use) {
+    CandidateSet<T>& candidates = work.candidates;
     const double reach = balls.back().radius;
     if ((reach + 1.0) * (reach + 1.0) >= kExactSquares<T>) return false;
     const ClosedBox box = detail::box_of(tree_, balls, [](const Ball& ball) { return ball.slot; });
     if (!candidates.gather(tree_, box, reach)) return false;
-    if (exact_ == Exact::kSums && !ball_sums_are_exact<T>(reach, candidates.count)) return false;
+    if (exact_ == Exact::kSums && !ball_sums_are_exact<T>(reach)) return false;
+    work.queries.clear();
     for (const Ball& ball : balls) {
-      BallQuery<T> query;
-      query.x = static_cast<T>(tree_.x()[ball.slot] - candidates.origin[0]);
-      query.y = static_cast<T>(tree_.y()[ball.slot] - candidates.origin[1]);
-      query.z = static_cast<T>(tree_.z()[ball.slot] - candidates.origin[2]);
-      query.radius2 = static_cast<T>(static_cast<std::uint64_t>(ball.radius * ball.radius));
-      use(static_cast<const CandidateSet<T>&>(candidates), query, ball);
+      work.queries.push_back({static_cast<T>(tree_.x()[ball.slot] - candidates.origin[0]),
+                              static_cast<T>(tree_.y()[ball.slot] - candidates.origin[1]),
+                              static_cast<T>(tree_.z()[ball.slot] - candidates.origin[2]),
+                              static_cast<T>(static_cast<std::uint64_t>(ball.radius * ball.radius))});
     }
+    use(static_cast<const CandidateSet<T>&>(candidates), std::span<const BallQuery<T>>(work.queries), balls);
     return true;
   }
 
   const PointTree& tree_;
   Arithmetic narrowest_;
   Exact exact_;
-  CandidateSet<float> floats_;
-  CandidateSet<double> doubles_;
-  CandidateSet<std::int64_t> integers_;
+  Workspace<float> floats_;
+  Workspace<double> doubles_;
+  Workspace<std::int64_t> integers_;
 };
 
 /// Larger balls around some points of a group, asked for one by one. The second question gathers for the whole group.

@@ -50,9 +50,13 @@ LocalSpacing local_spacing(const Neighbours& neighbours) {
   const std::size_t nearest = std::min(n, kNearest);
   for (std::size_t j = 0; j < nearest; ++j) spacing.nearest += std::sqrt(neighbours.d2[j]);
   spacing.nearest /= static_cast<double>(nearest);
-  const std::size_t first = n / 2;
-  spacing.density = weighted_sum(neighbours.d2.data(), first, n) / static_cast<double>(n - first);
+  spacing.density = density_spacing(neighbours.d2.data(), n);
   return spacing;
+}
+
+double density_spacing(const double* d2, std::size_t n) {
+  const std::size_t first = n / 2;
+  return weighted_sum(d2, first, n) / static_cast<double>(n - first);
 }
 
 }  // namespace arris

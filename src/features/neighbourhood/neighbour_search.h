@@ -23,9 +23,12 @@ struct SearchLimits {
 
 /// The k nearest neighbours within R_max of each query of a group. How far the first gathering reaches is guessed from
 /// the group before; queries that need more are run again. That decides the speed only. Not thread-safe.
-class NeighbourSearch {
+///
+/// `Found` is what is told of the neighbours: anything that select_nearest() fills.
+template <class Found>
+class NearestSearch {
  public:
-  NeighbourSearch(const PointTree& tree, const SearchLimits& limits) : tree_(tree), limits_(limits) {
+  NearestSearch(const PointTree& tree, const SearchLimits& limits) : tree_(tree), limits_(limits) {
     neighbours_.reserve(limits.k);
   }
 
@@ -101,7 +104,7 @@ class NeighbourSearch {
       if (find(work, slot, reach)) {
         reach_sum_ += std::sqrt(static_cast<double>(neighbours_.last_d2));
         ++measured_;
-        use(slot, static_cast<const Neighbours&>(neighbours_));
+        use(slot, static_cast<const Found&>(neighbours_));
       } else {
         pending_.push_back(slot);
       }
@@ -130,10 +133,12 @@ class NeighbourSearch {
   Workspace<float> floats_;
   Workspace<double> doubles_;
   Workspace<std::int64_t> integers_;
-  Neighbours neighbours_;
+  Found neighbours_;
   std::vector<std::uint32_t> pending_;  ///< Queries that the current reach did not do for.
   double reach_sum_ = 0.0;              ///< Of the distances of last neighbours in the current group.
   std::size_t measured_ = 0;
 };
+
+using NeighbourSearch = NearestSearch<Neighbours>;
 
 }  // namespace arris

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "features/numerics/exact_sums.h"
+
 namespace arris {
 namespace {
 
@@ -22,16 +24,17 @@ struct Sums {
     x += wx;
     y += wy;
     z += wz;
-    xx += wx * px;
-    xy += wx * py;
-    xz += wx * pz;
-    yy += wy * py;
-    yz += wy * pz;
-    zz += wz * pz;
+    xx = simd::exact_multiply_add(wx, px, xx);
+    xy = simd::exact_multiply_add(wx, py, xy);
+    xz = simd::exact_multiply_add(wx, pz, xz);
+    yy = simd::exact_multiply_add(wy, py, yy);
+    yz = simd::exact_multiply_add(wy, pz, yz);
+    zz = simd::exact_multiply_add(wz, pz, zz);
   }
   ARRIS_ALWAYS_INLINE PointSums total() const {
-    return {simd::lane_sum(n),  simd::lane_sum(x),  simd::lane_sum(y),  simd::lane_sum(z),  simd::lane_sum(xx),
-            simd::lane_sum(xy), simd::lane_sum(xz), simd::lane_sum(yy), simd::lane_sum(yz), simd::lane_sum(zz)};
+    return {simd::exact_lane_sum(n),  simd::exact_lane_sum(x),  simd::exact_lane_sum(y),  simd::exact_lane_sum(z),
+            simd::exact_lane_sum(xx), simd::exact_lane_sum(xy), simd::exact_lane_sum(xz), simd::exact_lane_sum(yy),
+            simd::exact_lane_sum(yz), simd::exact_lane_sum(zz)};
   }
 };
 
@@ -79,19 +82,44 @@ struct NearPlane {
   }
 };
 
-struct SplitAll {
+struct CountNearPlane {
   template <int Bytes>
-  static ARRIS_ALWAYS_INLINE void run(const BallPoints& p, const Split& split, SplitSums& out) {
+  static ARRIS_ALWAYS_INLINE void run(const BallPoints& p, double radius2, const FittedPlane& plane, double gate,
+                                      double& out) {
     using V = typename simd::Wide<Bytes>::Double;
-    Sums<V> a, b;
+    V n{};
     for (std::size_t i = 0; i < p.padded_count(); i += Bytes / sizeof(double)) {
       const V x = simd::load<V>(p.x.data() + i), y = simd::load<V>(p.y.data() + i), z = simd::load<V>(p.z.data() + i);
-      const V real = real_points<V>(x);
-      const V in_a = real * simd::where_above(along(split.g, x, y, z), split.h);
-      a.add(in_a, x, y, z);
-      b.add(real - in_a, x, y, z);
+      const V off2 = square(along(plane.normal, x, y, z) - plane.offset);
+      n += simd::where_at_most(x * x + y * y + z * z, radius2) * simd::where_at_most(off2, gate * gate);
     }
-    out = {a.total(), b.total()};
+    out = simd::exact_lane_sum(n);
+  }
+};
+
+struct All {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(const BallPoints& p, PointSums& out) {
+    using V = typename simd::Wide<Bytes>::Double;
+    Sums<V> sums;
+    for (std::size_t i = 0; i < p.padded_count(); i += Bytes / sizeof(double)) {
+      const V x = simd::load<V>(p.x.data() + i), y = simd::load<V>(p.y.data() + i), z = simd::load<V>(p.z.data() + i);
+      sums.add(real_points<V>(x), x, y, z);
+    }
+    out = sums.total();
+  }
+};
+
+struct Side {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(const BallPoints& p, const Split& split, PointSums& out) {
+    using V = typename simd::Wide<Bytes>::Double;
+    Sums<V> sums;
+    for (std::size_t i = 0; i < p.padded_count(); i += Bytes / sizeof(double)) {
+      const V x = simd::load<V>(p.x.data() + i), y = simd::load<V>(p.y.data() + i), z = simd::load<V>(p.z.data() + i);
+      sums.add(real_points<V>(x) * simd::where_above(along(split.g, x, y, z), split.h), x, y, z);
+    }
+    out = sums.total();
   }
 };
 
@@ -130,7 +158,7 @@ struct CutSquares {
       off2 = (1.0 - cut) * off2 + cut * (most * most);
       sum += real_points<V>(x) * off2;
     }
-    out = simd::lane_sum(sum);
+    out = simd::exact_lane_sum(sum);
   }
 };
 
@@ -166,9 +194,21 @@ PointSums sum_near_plane(const BallPoints& points, double radius, const FittedPl
   return sums;
 }
 
-SplitSums sum_split(const BallPoints& points, const Split& split) {
-  SplitSums sums;
-  simd::dispatch<SplitAll>(points, split, sums);
+double count_near_plane(const BallPoints& points, double radius, const FittedPlane& plane, double gate) {
+  double count = 0.0;
+  simd::dispatch<CountNearPlane>(points, radius * radius, plane, gate, count);
+  return count;
+}
+
+PointSums sum_all(const BallPoints& points) {
+  PointSums sums;
+  simd::dispatch<All>(points, sums);
+  return sums;
+}
+
+PointSums sum_side(const BallPoints& points, const Split& split) {
+  PointSums sums;
+  simd::dispatch<Side>(points, split, sums);
   return sums;
 }
 

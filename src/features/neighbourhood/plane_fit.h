@@ -11,6 +11,7 @@ namespace arris {
 /// Exact sums over points, whatever their order.
 struct PointSums {
   double n = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  bool operator==(const PointSums&) const = default;
 };
 
 /// normal . p = offset; a frame with it, and how the points spread.
@@ -31,10 +32,15 @@ struct FittedPlane {
 /// Needs sums.n >= 1. Fewer than three points, or collinear ones, leave the normal to the eigen-solver's fixed rule.
 FittedPlane fit_plane(const PointSums& sums);
 
+/// Sums over all points of the ball.
+PointSums sum_all(const BallPoints& points);
 /// Sums over the points within `radius` of the centre.
 PointSums sum_within(const BallPoints& points, double radius);
 /// Of those, the points no farther than `gate` from the plane.
 PointSums sum_near_plane(const BallPoints& points, double radius, const FittedPlane& plane, double gate);
+
+/// How many these are.
+double count_near_plane(const BallPoints& points, double radius, const FittedPlane& plane, double gate);
 
 /// An oriented plane g . p = h that parts the ball: points with g . p > h are on side a.
 struct Split {
@@ -42,12 +48,12 @@ struct Split {
   double h = 0.0;
 };
 
-/// Sums on both sides of a split.
+/// Sums over side a of a split.
+PointSums sum_side(const BallPoints& points, const Split& split);
 struct SplitSums {
   PointSums a, b;
 };
-SplitSums sum_split(const BallPoints& points, const Split& split);
-/// Only the points no farther than `gate` from the plane of their side.
+/// Sums on both sides of a split over the points no farther than `gate` from the plane of their side.
 SplitSums sum_split(const BallPoints& points, const Split& split, const FittedPlane& a, const FittedPlane& b,
                     double gate);
 /// Mean of the squared distances of all points to the plane of their side, distances cut at `most`.

@@ -1,6 +1,7 @@
 #pragma once
 /// @file A balanced kd-tree of buckets over the positions of one tile.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,7 +18,16 @@ struct ClosedBox {
 };
 
 /// Lower bound of the squared distance between two boxes; exact below 2^53 steps².
-double squared_distance(const ClosedBox& a, const ClosedBox& b);
+inline double squared_distance(const ClosedBox& a, const ClosedBox& b) {
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int64_t below = std::int64_t{a.min[axis]} - b.max[axis];
+    const std::int64_t above = std::int64_t{b.min[axis]} - a.max[axis];
+    const double gap = static_cast<double>(std::max({below, above, std::int64_t{0}}));
+    sum += gap * gap;
+  }
+  return sum;
+}
 
 /// Positions sorted into 2^depth buckets of 16 to 32 points (fewer if there are fewer), bucket boxes tight. Buckets
 /// that are close in number are close in space. Building takes O(n log n), in parallel; 24 bytes per point and about 3
