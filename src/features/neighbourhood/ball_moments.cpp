@@ -6,11 +6,35 @@
 namespace arris {
 namespace {
 
+/// What sums are made of: products of floats below 2^24 are exact, their sums need more bits than floats have.
+template <class T, int Bytes>
+struct SumsOf {
+  using Type = typename simd::VectorOf<T, Bytes>::Type;
+  static ARRIS_ALWAYS_INLINE Type of(const Type& v) { return v; }
+};
+template <int Bytes>
+struct SumsOf<float, Bytes> {
+  using Type = typename simd::VectorOf<float, Bytes>::Mask;
+  static ARRIS_ALWAYS_INLINE Type of(const typename simd::VectorOf<float, Bytes>::Type& v) {
+    return __builtin_convertvector(v, Type);
+  }
+};
+
+/// Sums of products in a lane are exact below this: floats are added up as 32-bit integers.
+template <class T>
+constexpr double kExactProductSums = kExactSquares<T>;
+template <>
+inline constexpr double kExactProductSums<float> = 2147483648.0;  // 2^31
+
 struct SumMembers {
   template <int Bytes, class T>
   static ARRIS_ALWAYS_INLINE void run(const CandidateSet<T>& c, const BallQuery<T>& ball, BallMoments& out) {
     using V = typename simd::VectorOf<T, Bytes>::Type;
-    V n{}, x{}, y{}, z{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+    using Mask = typename simd::VectorOf<T, Bytes>::Mask;
+    using S = SumsOf<T, Bytes>;
+    Mask n{};
+    V x{}, y{}, z{};
+    typename S::Type xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
     const std::size_t end = simd::padded(c.count);
     for (std::size_t i = 0; i < end; i += simd::VectorOf<T, Bytes>::kLanes) {
       V dx = simd::load<V>(c.x.data() + i) - ball.x;
@@ -20,19 +44,20 @@ struct SumMembers {
       dx = inside ? dx : V{};  // Others add zeros.
       dy = inside ? dy : V{};
       dz = inside ? dz : V{};
-      n += inside ? V{} + T{1} : V{};
+      n -= inside;
       x += dx;
       y += dy;
       z += dz;
-      xx += dx * dx;
-      xy += dx * dy;
-      xz += dx * dz;
-      yy += dy * dy;
-      yz += dy * dz;
-      zz += dz * dz;
+      xx += S::of(dx * dx);
+      xy += S::of(dx * dy);
+      xz += S::of(dx * dz);
+      yy += S::of(dy * dy);
+      yz += S::of(dy * dz);
+      zz += S::of(dz * dz);
     }
-    out = {simd::lane_sum(n),  simd::lane_sum(x),  simd::lane_sum(y),  simd::lane_sum(z),  simd::lane_sum(xx),
-           simd::lane_sum(xy), simd::lane_sum(xz), simd::lane_sum(yy), simd::lane_sum(yz), simd::lane_sum(zz)};
+    using simd::exact_lane_sum;
+    out = {exact_lane_sum(n),  exact_lane_sum(x),  exact_lane_sum(y),  exact_lane_sum(z),  exact_lane_sum(xx),
+           exact_lane_sum(xy), exact_lane_sum(xz), exact_lane_sum(yy), exact_lane_sum(yz), exact_lane_sum(zz)};
   }
 };
 
@@ -106,7 +131,8 @@ bool ball_sums_are_exact(double radius, std::size_t count) {
   } else {
     // Every lane adds up at most one term per vector of candidates; whatever the width, so that the narrowest decides.
     const double terms = static_cast<double>(count / simd::VectorOf<T, 16>::kLanes + 1);
-    return radius * radius < kExactSquares<T> && terms * radius * radius < kExactSquares<T>;
+    const double square = radius * radius;
+    return square < kExactSquares<T> && terms * radius < kExactSquares<T> && terms * square < kExactProductSums<T>;
   }
 }
 

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic ignored \
@@ -84,6 +85,25 @@ ARRIS_ALWAYS_INLINE double lane_sum(const V& v) {
   double sum = 0.0;
   for (std::size_t lane = 0; lane < sizeof(V) / sizeof(v[0]); ++lane) sum += static_cast<double>(v[lane]);
   return sum;
+}
+
+/// Sum of the lanes of doubles, half by half.
+template <class D, std::size_t... Lane>
+ARRIS_ALWAYS_INLINE double folded_sum(const D& v, std::index_sequence<Lane...> /*half*/) {
+  constexpr std::size_t kHalf = sizeof...(Lane);
+  if constexpr (kHalf == 1) {
+    return v[0] + v[1];
+  } else {
+    return folded_sum(__builtin_shufflevector(v, v, Lane...) + __builtin_shufflevector(v, v, (kHalf + Lane)...),
+                      std::make_index_sequence<kHalf / 2>());
+  }
+}
+/// Where double holds the values of the lanes and all their sums exactly, so that any order will do.
+template <class V>
+ARRIS_ALWAYS_INLINE double exact_lane_sum(const V& v) {
+  constexpr std::size_t kLanes = sizeof(V) / sizeof(v[0]);
+  typedef double Doubles __attribute__((vector_size(kLanes * sizeof(double))));
+  return folded_sum(__builtin_convertvector(v, Doubles), std::make_index_sequence<kLanes / 2>());
 }
 
 ARRIS_ALWAYS_INLINE double square_root(double v) {
