@@ -19,6 +19,15 @@ struct Ball {
   std::uint32_t query = 0;
 };
 
+/// What to ask of candidates that were gathered around the ball.
+template <class T>
+BallQuery<T> query_of(const PointTree& tree, const CandidateSet<T>& candidates, const Ball& ball) {
+  return {static_cast<T>(tree.x()[ball.slot] - candidates.origin[0]),
+          static_cast<T>(tree.y()[ball.slot] - candidates.origin[1]),
+          static_cast<T>(tree.z()[ball.slot] - candidates.origin[2]),
+          static_cast<T>(static_cast<std::uint64_t>(ball.radius * ball.radius))};
+}
+
 /// The points in balls that are close together. Not thread-safe.
 class BallSearch {
  public:
@@ -31,6 +40,13 @@ class BallSearch {
   /// Calls use(candidates, ball query, ball) once per ball, in any order, with a CandidateSet<T>. Reorders `balls`.
   template <class Use>
   void run(std::vector<Ball>& balls, Use&& use) {
+    run_groups(balls, [&](const auto& candidates, std::span<const Ball> group) {
+      for (const Ball& ball : group) use(candidates, query_of(tree_, candidates, ball), ball);
+    });
+  }
+  /// Calls use(candidates, balls) for groups of balls that share their candidates.
+  template <class Use>
+  void run_groups(std::vector<Ball>& balls, Use&& use) {
     // Balls of one size together; the few large ones would only burden the others.
     std::sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) {
       return a.radius != b.radius ? a.radius < b.radius : a.slot < b.slot;
@@ -63,14 +79,7 @@ class BallSearch {
     const ClosedBox box = detail::box_of(tree_, balls, [](const Ball& ball) { return ball.slot; });
     if (!candidates.gather(tree_, box, reach)) return false;
     if (exact_ == Exact::kSums && !ball_sums_are_exact<T>(reach, candidates.count)) return false;
-    for (const Ball& ball : balls) {
-      BallQuery<T> query;
-      query.x = static_cast<T>(tree_.x()[ball.slot] - candidates.origin[0]);
-      query.y = static_cast<T>(tree_.y()[ball.slot] - candidates.origin[1]);
-      query.z = static_cast<T>(tree_.z()[ball.slot] - candidates.origin[2]);
-      query.radius2 = static_cast<T>(static_cast<std::uint64_t>(ball.radius * ball.radius));
-      use(static_cast<const CandidateSet<T>&>(candidates), query, ball);
-    }
+    use(static_cast<const CandidateSet<T>&>(candidates), balls);
     return true;
   }
 
@@ -106,9 +115,9 @@ class SharedBalls {
       return;
     }
     if (gathered_ == Gathered::kFloats) {
-      use(static_cast<const CandidateSet<float>&>(floats_), query_of(floats_, ball));
+      use(static_cast<const CandidateSet<float>&>(floats_), query_of(tree_, floats_, ball));
     } else {
-      use(static_cast<const CandidateSet<double>&>(doubles_), query_of(doubles_, ball));
+      use(static_cast<const CandidateSet<double>&>(doubles_), query_of(tree_, doubles_, ball));
     }
   }
 
@@ -126,14 +135,6 @@ class SharedBalls {
       gathered_ = Gathered::kDoubles;
     }
     return gathered_ != Gathered::kNothing;
-  }
-
-  template <class T>
-  BallQuery<T> query_of(const CandidateSet<T>& candidates, const Ball& ball) const {
-    return {static_cast<T>(tree_.x()[ball.slot] - candidates.origin[0]),
-            static_cast<T>(tree_.y()[ball.slot] - candidates.origin[1]),
-            static_cast<T>(tree_.z()[ball.slot] - candidates.origin[2]),
-            static_cast<T>(static_cast<std::uint64_t>(ball.radius * ball.radius))};
   }
 
   const PointTree& tree_;

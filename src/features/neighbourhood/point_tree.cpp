@@ -66,17 +66,6 @@ struct Builder {
 
 }  // namespace
 
-double squared_distance(const ClosedBox& a, const ClosedBox& b) {
-  double sum = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::int64_t below = std::int64_t{a.min[axis]} - b.max[axis];
-    const std::int64_t above = std::int64_t{b.min[axis]} - a.max[axis];
-    const double gap = static_cast<double>(std::max({below, above, std::int64_t{0}}));
-    sum += gap * gap;
-  }
-  return sum;
-}
-
 PointTree::PointTree(std::span<const LatticePoint> positions, std::span<const std::uint64_t> ids) {
   const std::size_t n = positions.size();
   while ((n >> depth_) >= kBucketPoints) ++depth_;

@@ -1,6 +1,7 @@
 #pragma once
 /// @file A balanced kd-tree of buckets over the positions of one tile.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,7 +18,17 @@ struct ClosedBox {
 };
 
 /// Lower bound of the squared distance between two boxes; exact below 2^53 steps².
-double squared_distance(const ClosedBox& a, const ClosedBox& b);
+inline double squared_distance(const ClosedBox& a, const ClosedBox& b) {
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    // Differences of 32-bit integers are exact in double.
+    const double below = static_cast<double>(a.min[axis]) - b.max[axis];
+    const double above = static_cast<double>(b.min[axis]) - a.max[axis];
+    const double gap = std::max(std::max(below, above), 0.0);
+    sum += gap * gap;
+  }
+  return sum;
+}
 
 /// Positions sorted into 2^depth buckets of 16 to 32 points (fewer if there are fewer), bucket boxes tight. Buckets
 /// that are close in number are close in space. Building takes O(n log n), in parallel; 24 bytes per point and about 3
