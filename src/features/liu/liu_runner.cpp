@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "features/numerics/exact_math.h"
 
@@ -11,19 +12,20 @@ LiuRunner::LiuRunner(const LiuTask& task)
     : task_(task),
       neighbour_search_(task.tree, task.settings.limits()),
       ball_search_(task.tree, task.settings.switches.narrowest, BallSearch::Exact::kSums),
-      scales_(task.settings.scale) {}
+      scales_(task.settings.scale) {
+  for (Boundary& waiting : boundaries_) waiting.neighbours.reserve(task.settings.limits().k);
+}
 
 void LiuRunner::run(std::span<const std::uint32_t> slots) {
   balls_.clear();
   thresholds_.clear();
   neighbour_search_.run(slots,
-                        [this](std::uint32_t slot, const Neighbours& neighbours) { use_neighbours(slot, neighbours); });
-  test_boundaries();
+                        [this](std::uint32_t slot, Neighbours& neighbours) { use_neighbours(slot, neighbours); });
   ball_search_.run_groups(
       balls_, [this](const auto& candidates, std::span<const Ball> balls) { test_folds(candidates, balls); });
 }
 
-void LiuRunner::use_neighbours(std::uint32_t slot, const Neighbours& neighbours) {
+void LiuRunner::use_neighbours(std::uint32_t slot, Neighbours& neighbours) {
   const LiuParameters& parameters = task_.settings.parameters;
   const LocalSpacing spacing = task_.settings.spacing(neighbours);
   const FoldThresholds fold = task_.settings.fold_thresholds(spacing);
@@ -32,17 +34,17 @@ void LiuRunner::use_neighbours(std::uint32_t slot, const Neighbours& neighbours)
     task_.results.add_isolated(slot);
     return;
   }
+  if (parameters.fold) {
+    balls_.push_back({slot, fold.radius, static_cast<std::uint32_t>(thresholds_.size())});
+    thresholds_.push_back(fold);
+  }
   if (parameters.boundary) {
     Boundary& waiting = boundaries_[boundary_count_];
     waiting.slot = slot;
     waiting.spacing = spacing;
-    waiting.neighbours = neighbours;  // Member by member: the memory stays.
-    scales_.set(boundary_count_++, neighbours);
+    std::swap(waiting.neighbours, neighbours);
+    scales_.set(boundary_count_++, waiting.neighbours);
     if (boundary_count_ == boundaries_.size()) test_boundaries();
-  }
-  if (parameters.fold) {
-    balls_.push_back({slot, fold.radius, static_cast<std::uint32_t>(thresholds_.size())});
-    thresholds_.push_back(fold);
   }
 }
 

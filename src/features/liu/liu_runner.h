@@ -34,7 +34,11 @@ class LiuRunner {
   /// `slots`: queries that are close together, in tree order.
   void run(std::span<const std::uint32_t> slots);
 
-  std::vector<UnprovenQuery> take_unproven() { return std::move(unproven_); }
+  /// After the last run(): finishes what still waits.
+  std::vector<UnprovenQuery> take_unproven() {
+    test_boundaries();
+    return std::move(unproven_);
+  }
 
  private:
   struct Boundary {
@@ -47,7 +51,8 @@ class LiuRunner {
     double points = 0.0;
   };
 
-  void use_neighbours(std::uint32_t slot, const Neighbours& neighbours);
+  /// Takes `neighbours` away if they wait for the boundary test, and leaves others of no meaning.
+  void use_neighbours(std::uint32_t slot, Neighbours& neighbours);
   bool proven(std::uint32_t slot, const Neighbours& neighbours, const FoldThresholds& fold);
   /// Those that wait, eight at once.
   void test_boundaries();

@@ -26,6 +26,48 @@ ClosedBox box_of(std::span<const Item> items) {
   return box;
 }
 
+/// Puts the items for which `before` holds in front, without branches; returns how many.
+template <class Before>
+std::size_t part(std::span<Item> items, Before before) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const Item item = items[i];
+    items[i] = items[n];
+    items[n] = item;
+    n += before(item);
+  }
+  return n;
+}
+
+/// As std::nth_element, but in most rounds no branch depends on an item.
+void select(std::span<Item> items, std::size_t nth, int axis) {
+  constexpr std::size_t kFew = 32;
+  constexpr int kMostRounds = 64;  // Against orders that make every pivot a bad one.
+  for (int round = 0; round < kMostRounds && items.size() > kFew; ++round) {
+    const std::size_t last = items.size() - 1;
+    std::int32_t sample[] = {items[0].at[axis], items[last / 4].at[axis], items[last / 2].at[axis],
+                             items[last / 4 * 3].at[axis], items[last].at[axis]};
+    std::sort(std::begin(sample), std::end(sample));
+    const std::int32_t pivot = sample[2];
+    const std::size_t below = part(items, [=](const Item& item) { return item.at[axis] < pivot; });
+    if (nth < below) {
+      items = items.first(below);
+      continue;
+    }
+    const bool uneven = below < items.size() / 8;
+    items = items.subspan(below);
+    nth -= below;
+    if (!uneven) continue;
+    // Many may be equal to the pivot.
+    const std::size_t equal = part(items, [=](const Item& item) { return item.at[axis] == pivot; });
+    if (nth < equal) return;
+    items = items.subspan(equal);
+    nth -= equal;
+  }
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(nth), items.end(),
+                   [axis](const Item& a, const Item& b) { return a.at[axis] < b.at[axis]; });
+}
+
 struct Builder {
   std::vector<Item>& items;
   std::vector<ClosedBox>& boxes;
@@ -50,10 +92,7 @@ struct Builder {
       }
     }
     const std::size_t middle = begin_of(2 * number + 1, level + 1);
-    const auto first = items.begin();
-    std::nth_element(first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(middle),
-                     first + static_cast<std::ptrdiff_t>(end),
-                     [axis](const Item& a, const Item& b) { return a.at[axis] < b.at[axis]; });
+    select(std::span(items).subspan(begin, end - begin), middle - begin, axis);
   }
 
   void build_below(std::size_t node, int level) const {
