@@ -30,7 +30,7 @@ struct Sums {
 };
 
 struct Kernel {
-  /// d2 is padded with zeros to full vectors.
+  /// d2 is padded with zeros to simd::padded(n): they add nothing either.
   template <int Bytes>
   static ARRIS_ALWAYS_INLINE void run(const double* d2, const double* weights, std::size_t first, std::size_t n,
                                       Sums& sums) {
@@ -42,12 +42,13 @@ struct Kernel {
     }
     double terms[simd::padded(256)];
     const std::size_t aligned = first / 8 * 8;
-    for (std::size_t j = aligned; j < n; j += kLanes) {
+    const std::size_t end = simd::padded(n);
+    for (std::size_t j = aligned; j < end; j += kLanes) {
       simd::store(terms + j, simd::square_root(simd::load<V>(d2 + j)) * simd::load<V>(weights + j));
     }
     for (std::size_t j = aligned; j < first; ++j) terms[j] = 0.0;  // Adds nothing.
     Parts parts{};
-    for (std::size_t j = aligned; j < n; j += kParts) parts += simd::load<Parts>(terms + j);
+    for (std::size_t j = aligned; j < end; j += kParts) parts += simd::load<Parts>(terms + j);
     simd::store(sums.parts, parts);
   }
 };
