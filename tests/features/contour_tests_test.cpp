@@ -9,6 +9,7 @@
 
 #include "core/columns.h"
 #include "core/error.h"
+#include "features/liu/fold_screen.h"
 #include "features/liu/fold_test.h"
 #include "features/liu/liu_method.h"
 #include "features/neighbourhood/azimuth_gap.h"
@@ -282,6 +283,7 @@ TEST(FoldTest, DeviationBound_IsNeverBelowTheDeviation) {
   std::mt19937_64 random(4);
   std::normal_distribution<double> normal;
   int tight = 0;
+  int tighter = 0;
   for (int round = 0; round < 300; ++round) {
     const double noise = std::vector<double>{0.0, 0.5, 3.0, 20.0}[round % 4];
     FoldScratch s = fold_ball(60.0 + round % 121, 50.0, 7.0, kTurn);
@@ -289,13 +291,16 @@ TEST(FoldTest, DeviationBound_IsNeverBelowTheDeviation) {
     BallMoments moments;
     const PrincipalFrame frame = frame_of(s.members, &moments);
     double radius = 0.0;
-    double low = 0.0;
-    double high = 0.0;
+    double low[2] = {};
+    double high[2] = {};
     for (BallMember& m : s.members) {
       m.d2 = m.dx * m.dx + m.dy * m.dy + m.dz * m.dz;
       radius = std::max(radius, std::sqrt(m.d2));
-      low = std::min(low, dot(frame.e3, {m.dx, m.dy, m.dz}));
-      high = std::max(high, dot(frame.e3, {m.dx, m.dy, m.dz}));
+      const double along[2] = {dot(frame.e2, {m.dx, m.dy, m.dz}), dot(frame.e3, {m.dx, m.dy, m.dz})};
+      for (int e = 0; e < 2; ++e) {
+        low[e] = std::min(low[e], along[e]);
+        high[e] = std::max(high[e], along[e]);
+      }
     }
     FoldEmission emission;
     constexpr double kTiny = 1e-9;
@@ -303,10 +308,49 @@ TEST(FoldTest, DeviationBound_IsNeverBelowTheDeviation) {
     if (emission.slots.empty()) continue;
     const double cf1 = emission.strength * kTiny;
     EXPECT_GE(chord_deviation_bound(frame.values, moments.n, radius), cf1 * (1 - 1e-7));
-    EXPECT_GE(chord_deviation_bound(frame.values, moments.n, radius, high - low), cf1 * (1 - 1e-7));
-    tight += chord_deviation_bound(frame.values, moments.n, radius, high - low) < 0.2 * radius;
+    const double loose = chord_deviation_bound(frame.values, moments.n, radius, high[1] - low[1], 0.0);
+    const double bound = chord_deviation_bound(frame.values, moments.n, radius, high[1] - low[1], high[0] - low[0]);
+    EXPECT_GE(bound, cf1 * (1 - 1e-7));
+    EXPECT_GE(loose, bound);
+    tight += loose < 0.2 * radius;
+    tighter += bound < 0.9 * loose;
   }
   EXPECT_GT(tight, 10);
+  EXPECT_GT(tighter, 10);
+}
+
+TEST(FoldScreen, EightBalls_AreBoundedAsOneByOne) {
+  std::mt19937_64 random(14);
+  std::normal_distribution<double> normal;
+  FoldScreen screen;
+  int rejected = 0;
+  for (int round = 0; round < 50; ++round) {
+    BallMoments moments[FoldScreen::kCount];
+    FoldThresholds thresholds[FoldScreen::kCount];
+    for (std::size_t i = 0; i < FoldScreen::kCount; ++i) {
+      FoldScratch s = fold_ball(60.0 + (round * 8 + static_cast<int>(i)) % 121, 50.0, 7.0, kTurn);
+      for (BallMember& m : s.members) m.dx += 0.5 * static_cast<double>(i) * normal(random);
+      frame_of(s.members, &moments[i]);
+      thresholds[i] = {60.0, 4.0 + round % 20, 4.0, 3};
+      screen.set(i, moments[i], thresholds[i]);
+    }
+    screen.solve();
+    for (std::size_t i = 0; i < FoldScreen::kCount; ++i) {
+      const SymmetricMatrix<double> c = moments[i].covariance();
+      const Eigenvalues<double> values = eigenvalues_of(c);
+      const SymmetricMatrix<double> screened = screen.covariance(i);
+      EXPECT_EQ(std::tie(screened.xx, screened.xy, screened.xz, screened.yy, screened.yz, screened.zz),
+                std::tie(c.xx, c.xy, c.xz, c.yy, c.yz, c.zz));
+      EXPECT_EQ(screen.values(i).largest, values.largest);
+      EXPECT_EQ(screen.values(i).middle, values.middle);
+      EXPECT_EQ(screen.values(i).smallest, values.smallest);
+      const bool may = chord_deviation_bound(values, moments[i].n, thresholds[i].radius) >= thresholds[i].cf1;
+      EXPECT_EQ(screen.may_fold(i), may);
+      rejected += !may;
+    }
+  }
+  EXPECT_GT(rejected, 20);
+  EXPECT_LT(rejected, 380);
 }
 
 TEST(LiuScore, MoreEvidence_ScoresHigher) {

@@ -130,7 +130,7 @@ class Reference {
                                         n * s[6] - s[1] * s[1], n * s[7] - s[1] * s[2], n * s[8] - s[2] * s[2]};
         const PrincipalFrame frame = principal_frame(c);
         if (guarded && frame.values.middle < p_.min_planarity * frame.values.largest) continue;
-        const double entropy = dimensional_entropy(frame.values);
+        const double entropy = entropy_of(frame.values);
         if (entropy < best - kEntropyTie) {
           best = entropy;
           best_k = k;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
 
 #include "features/neighbourhood/ball_moments.h"
 #include "features/neighbourhood/candidate_set.h"
@@ -166,9 +168,9 @@ TYPED_TEST(Kernels, BallMoments_AreExact) {
                               static_cast<TypeParam>(centre.z - candidates.origin[2]), static_cast<TypeParam>(radius2)};
     std::int64_t n = 0;
     std::int64_t sums[9] = {};
-    double low = 0.0;
-    double high = 0.0;
-    const Vector3 e{0.36, 0.48, 0.8};
+    const std::array<Vector3, 2> directions{Vector3{0.36, 0.48, 0.8}, Vector3{0.8, -0.6, 0.0}};
+    double low[2] = {};
+    double high[2] = {};
     for (const LatticePoint& p : tile.positions) {
       if (squared_distance(p, centre) > radius2) continue;
       const std::int64_t x = p.x - centre.x;
@@ -177,15 +179,23 @@ TYPED_TEST(Kernels, BallMoments_AreExact) {
       const std::int64_t terms[9] = {x, y, z, x * x, x * y, x * z, y * y, y * z, z * z};
       for (int t = 0; t < 9; ++t) sums[t] += terms[t];
       ++n;
-      const double along = dot(e, {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
-      low = std::min(low, along);
-      high = std::max(high, along);
+      for (std::size_t e = 0; e < 2; ++e) {
+        const double along =
+            dot(directions[e], {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
+        low[e] = std::min(low[e], along);
+        high[e] = std::max(high[e], along);
+      }
     }
     const BallMoments m = ball_moments(candidates, ball);
     const double found[10] = {m.n, m.x, m.y, m.z, m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
     EXPECT_EQ(found[0], static_cast<double>(n));
     for (int t = 0; t < 9; ++t) EXPECT_EQ(found[t + 1], static_cast<double>(sums[t])) << t;
-    EXPECT_GE(extent_bound(candidates, ball, e), high - low);
+    const auto extents = extent_bounds(candidates, ball, directions[0], directions[1]);
+    for (std::size_t e = 0; e < 2; ++e) {
+      EXPECT_GE(extents[e].most, high[e] - low[e]);
+      EXPECT_LE(extents[e].least, high[e] - low[e]);
+      EXPECT_GE(extents[e].least, 0.0);
+    }
     std::vector<std::uint32_t> members;
     EXPECT_EQ(ball_members(candidates, ball, members), static_cast<std::size_t>(n));
   }
@@ -226,6 +236,26 @@ TYPED_TEST(Kernels, NearestDistances_AreThoseOfTheNeighbours) {
       }
     }
   }
+}
+
+TEST(BallMoments, SumsBeyondFloat_AreExactFromFloats) {
+  // Squares add up to 400 times 2^22, which floats do not hold.
+  std::vector<LatticePoint> positions{{0, 0, 0}};
+  for (std::int32_t i = 0; i < 400; ++i) positions.push_back({2047 - i % 3, -2000 + i, i % 2 == 0 ? 1999 : -1801 + i});
+  const TilePoints tile = test::tile_of(positions, 1);
+  const PointTree tree = tree_of(tile);
+  CandidateSet<float> floats;
+  CandidateSet<double> doubles;
+  const ClosedBox box{{0, 0, 0}, {0, 0, 0}};
+  constexpr double kRadius = 4000.0;
+  ASSERT_TRUE(floats.gather(tree, box, kRadius));
+  ASSERT_TRUE(doubles.gather(tree, box, kRadius));
+  ASSERT_TRUE(ball_sums_are_exact<float>(kRadius));
+  const BallMoments a = ball_moments(floats, {0, 0, 0, static_cast<float>(kRadius * kRadius)});
+  const BallMoments b = ball_moments(doubles, {0, 0, 0, kRadius * kRadius});
+  EXPECT_EQ(a.n, 401.0);
+  EXPECT_EQ(std::tie(a.n, a.x, a.y, a.z, a.xx, a.xy, a.xz, a.yy, a.yz, a.zz),
+            std::tie(b.n, b.x, b.y, b.z, b.xx, b.xy, b.xz, b.yy, b.yz, b.zz));
 }
 
 TEST(CandidateSet, CoordinatesTooLargeForFloat_AreRefused) {

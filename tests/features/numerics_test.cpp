@@ -5,11 +5,14 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "features/liu/entropy_scale.h"
+#include "features/liu/scale_batch.h"
 #include "features/neighbourhood/planar_diameter.h"
 #include "features/numerics/exact_math.h"
 #include "features/numerics/fixed_point.h"
+#include "features/numerics/principal_frames.h"
 #include "features/numerics/symmetric_eigen3.h"
 
 namespace arris {
@@ -140,16 +143,16 @@ TEST(SymmetricEigen3, ExactPlane_HasAnExactNormal) {
 }
 
 TEST(Entropy, PureShapes_HaveNone) {
-  EXPECT_NEAR(dimensional_entropy(Eigenvalues<double>{1, 0, 0}), 0.0, 1e-12);
-  EXPECT_NEAR(dimensional_entropy(Eigenvalues<double>{1, 1, 0}), 0.0, 1e-12);
-  EXPECT_NEAR(dimensional_entropy(Eigenvalues<double>{1, 1, 1}), 0.0, 1e-12);
-  EXPECT_TRUE(std::isinf(dimensional_entropy(Eigenvalues<double>{0, 0, 0})));
+  EXPECT_NEAR(entropy_of(Eigenvalues<double>{1, 0, 0}), 0.0, 1e-12);
+  EXPECT_NEAR(entropy_of(Eigenvalues<double>{1, 1, 0}), 0.0, 1e-12);
+  EXPECT_NEAR(entropy_of(Eigenvalues<double>{1, 1, 1}), 0.0, 1e-12);
+  EXPECT_TRUE(std::isinf(entropy_of(Eigenvalues<double>{0, 0, 0})));
 }
 
 TEST(Entropy, EqualShares_HaveTheMost) {
   // a1 = a2 = a3 = 1/3 means delta = 3 : 2 : 1.
-  EXPECT_NEAR(dimensional_entropy(Eigenvalues<double>{9, 4, 1}), std::log(3.0), 1e-12);
-  EXPECT_NEAR(dimensional_entropy(Eigenvalues<double>{900, 400, 100}), std::log(3.0), 1e-12);
+  EXPECT_NEAR(entropy_of(Eigenvalues<double>{9, 4, 1}), std::log(3.0), 1e-12);
+  EXPECT_NEAR(entropy_of(Eigenvalues<double>{900, 400, 100}), std::log(3.0), 1e-12);
 }
 
 Neighbours neighbours_of(const std::vector<Vector3>& points) {
@@ -190,7 +193,7 @@ TEST(ChooseScale, ManySizes_AgreeWithOneByOne) {
       if (range.with_target) c += mean * mean.transpose();
       const Eigen::Vector3d l = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(c).eigenvalues();
       if (l[1] < 0.05 * l[2]) continue;
-      const double entropy = dimensional_entropy(Eigenvalues<double>{l[2], l[1], l[0]});
+      const double entropy = entropy_of(Eigenvalues<double>{l[2], l[1], l[0]});
       if (entropy < best - kEntropyTie) {
         best = entropy;
         best_k = k;
@@ -227,6 +230,64 @@ TEST(ChooseScale, ExactPlane_TiesGoToTheSmallest) {
     }
   }
   EXPECT_EQ(choose_scale(neighbours_of(points), ScaleRange{4, 20, 4, true, 0.05}).k, 4);
+}
+
+TEST(ScaleBatch, EightQueries_AreChosenAsOneByOne) {
+  std::mt19937_64 random(16);
+  std::uniform_int_distribution<int> step(-500, 500);
+  std::uniform_int_distribution<std::size_t> count(5, 45);
+  for (int round = 0; round < 100; ++round) {
+    const ScaleRange range{10 + round % 7, 40, 1 + round % 3, round % 2 == 0, round % 5 == 0 ? 0.9 : 0.05};
+    ScaleBatch batch(range);
+    std::vector<Neighbours> all;
+    for (std::size_t i = 0; i < ScaleBatch::kCount; ++i) {
+      std::vector<Vector3> points(count(random));
+      const double flat = std::vector<double>{0.0, 0.02, 1.0}[i % 3];  // Also exact planes and lines.
+      for (Vector3& p : points)
+        p = {1.0 * step(random), i == 7 ? 0.0 : 1.0 * step(random), std::round(flat * step(random))};
+      std::sort(points.begin(), points.end(), [](const Vector3& a, const Vector3& b) { return dot(a, a) < dot(b, b); });
+      all.push_back(neighbours_of(points));
+      batch.set(i, all.back());
+    }
+    batch.solve();
+    for (std::size_t i = 0; i < ScaleBatch::kCount; ++i) {
+      const ScaleChoice a = batch.choice(i);
+      const ScaleChoice b = choose_scale(all[i], range);
+      EXPECT_EQ(a.k, b.k);
+      if (b.k == 0) continue;
+      EXPECT_EQ(std::tie(a.covariance.xx, a.covariance.xy, a.covariance.xz, a.covariance.yy, a.covariance.yz,
+                         a.covariance.zz, a.values.largest, a.values.middle, a.values.smallest),
+                std::tie(b.covariance.xx, b.covariance.xy, b.covariance.xz, b.covariance.yy, b.covariance.yz,
+                         b.covariance.zz, b.values.largest, b.values.middle, b.values.smallest));
+    }
+  }
+}
+
+TEST(PrincipalFrames, EightMatrices_AreSolvedAsOneByOne) {
+  std::mt19937_64 random(15);
+  std::uniform_int_distribution<int> entry(-4, 4);
+  std::normal_distribution<double> normal;
+  PrincipalFrames frames;
+  for (int round = 0; round < 500; ++round) {
+    SymmetricMatrix<double> a[PrincipalFrames::kCount];
+    for (std::size_t i = 0; i < PrincipalFrames::kCount; ++i) {
+      // Small integers: also double and triple eigenvalues, diagonal and zero matrices.
+      double e[6];
+      for (double& v : e) v = i % 2 == 0 ? entry(random) * (entry(random) > 0) : normal(random);
+      a[i] = {e[0], e[1], e[2], e[3], e[4], e[5]};
+      if (i == 0) a[i] = {e[0], 0, 0, e[0], 0, e[0]};
+      if (i == 2) a[i] = {e[0], 0, 0, e[1], 0, e[1]};
+      frames.set(i, a[i], eigenvalues_of(a[i]));
+    }
+    frames.solve();
+    for (std::size_t i = 0; i < PrincipalFrames::kCount; ++i) {
+      const PrincipalFrame one = principal_frame(a[i]);
+      const PrincipalFrame eight = frames.frame(i);
+      EXPECT_EQ(eight.e1, one.e1);
+      EXPECT_EQ(eight.e2, one.e2);
+      EXPECT_EQ(eight.e3, one.e3);
+    }
+  }
 }
 
 TEST(PlanarDiameter, RandomSets_AgreeWithAllPairs) {

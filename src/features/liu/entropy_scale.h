@@ -3,8 +3,10 @@
 /// al., eq. 1-6).
 
 #include <cstddef>
+#include <limits>
 
 #include "features/neighbourhood/nearest_select.h"
+#include "features/numerics/exact_math.h"
 #include "features/numerics/symmetric_eigen3.h"
 
 namespace arris {
@@ -28,11 +30,33 @@ struct ScaleChoice {
   Eigenvalues<double> values{};          ///< Of the covariance.
 };
 
-/// Entropy of a1, a2, a3 (eq. 4, 5) for eigenvalues of any common scale; infinity if the largest is not positive.
+/// One term of an entropy.
 template <class V>
-V dimensional_entropy(const Eigenvalues<V>& values);
+ARRIS_ALWAYS_INLINE V entropy_term(const V& a) {
+  const V positive = a > 1e-300 ? a : a - a + 1e-300;  // 0 ln 0 = 0.
+  return a * log_of_positive(positive);
+}
 
-/// k = k_min, k_min + step, ... up to min(k_max, neighbours.count). O(k_max); eight sizes at a time.
+/// Entropy of a1, a2, a3 (eq. 4, 5) for eigenvalues of any common scale; infinity if the largest is not positive. One
+/// query or, with vectors of doubles, many.
+template <class V>
+ARRIS_ALWAYS_INLINE V entropy_of(const Eigenvalues<V>& values) {
+  const V zero = values.largest - values.largest;
+  const V l1 = values.largest > 0.0 ? values.largest : zero + 1.0;
+  const V d1 = simd::square_root(l1);
+  const V d2 = simd::square_root(values.middle > 0.0 ? values.middle : zero);
+  const V d3 = simd::square_root(values.smallest > 0.0 ? values.smallest : zero);
+  const V inverse = 1.0 / d1;
+  const V a1 = (d1 - d2) * inverse;
+  const V a2 = (d2 - d3) * inverse;
+  const V a3 = d3 * inverse;
+  const V entropy = -(entropy_term(a1) + entropy_term(a2) + entropy_term(a3));
+  return values.largest > 0.0 ? entropy : zero + std::numeric_limits<double>::infinity();
+}
+
+/// k = k_min, k_min + step, ... up to min(k_max, neighbours.count). O(k_max). The sums are exact while k * distance² <
+/// 2^53; beyond, the canonical order of the neighbours makes the rounding the same everywhere. The method takes
+/// ScaleBatch, which is the same for eight queries at once.
 ScaleChoice choose_scale(const Neighbours& neighbours, const ScaleRange& range);
 
 }  // namespace arris

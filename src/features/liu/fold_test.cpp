@@ -9,6 +9,9 @@
 namespace arris {
 namespace {
 
+/// Computed coordinates and distances are off by less than this share of the radius, by far.
+constexpr double kEndMargin = 1e-9;
+
 struct Chord {
   double x, y;    ///< One end.
   double sx, sy;  ///< Unit direction.
@@ -82,24 +85,29 @@ void project(const PrincipalFrame& frame, FoldScratch& s) {
   }
 }
 
-/// Members that can be an end of the diameter: it is at least as long as the span along u, and no member is farther out
-/// than `reach`, so an end lies at least the difference from the centre. The margin covers rounding.
+/// Members that can be an end of the diameter, which is at least as long as the longer side of the box around all. A
+/// member is an end only if so far away from it there is still room, both in the box and in the circle around the
+/// centre that holds all. The margin covers rounding.
 void gather_ends(FoldScratch& s, double radius) {
   const std::size_t n = s.members.size();
-  std::size_t left = 0;
-  std::size_t right = 0;
-  double reach2 = 0.0;
+  double left = 0.0, right = 0.0, low = 0.0, high = 0.0, reach2 = 0.0;  // The centre is a member.
   for (std::size_t i = 0; i < n; ++i) {
-    if (s.u[i] < s.u[left]) left = i;
-    if (s.u[i] > s.u[right]) right = i;
+    left = std::min(left, s.u[i]);
+    right = std::max(right, s.u[i]);
+    low = std::min(low, s.v[i]);
+    high = std::max(high, s.v[i]);
     reach2 = std::max(reach2, s.u[i] * s.u[i] + s.v[i] * s.v[i]);
   }
-  // Either extreme may be one of several: the span along u is the same for all of them.
-  const double inner = std::max(0.0, s.u[right] - s.u[left] - std::sqrt(reach2) - 1e-9 * radius);
+  const double least = std::max(0.0, std::max(right - left, high - low) - kEndMargin * radius);
+  const double inner = std::max(0.0, least - std::sqrt(reach2));
   s.ends.clear();
   for (std::size_t i = 0; i < n; ++i) {
-    if (s.u[i] * s.u[i] + s.v[i] * s.v[i] < inner * inner) continue;
-    s.ends.push_back({s.u[i], s.v[i], s.members[i].d2, s.members[i].id});
+    const double u = s.u[i];
+    const double v = s.v[i];
+    const double to_side = std::max(u - left, right - u);
+    const double to_floor = std::max(v - low, high - v);
+    if (u * u + v * v < inner * inner || to_side * to_side + to_floor * to_floor < least * least) continue;
+    s.ends.push_back({u, v, s.members[i].d2, s.members[i].id});
   }
 }
 
@@ -119,18 +127,6 @@ void pick_top(FoldScratch& s, std::size_t count, FoldEmission& emission) {
 }
 
 }  // namespace
-
-double chord_deviation_bound(const Eigenvalues<double>& values, double n, double radius, double extent3) {
-  // Nearly equal values may be off by 1e-8 of the largest, which is at most r².
-  const double slack = 1e-7 * radius * radius;
-  const double l2 = std::max(values.middle, 0.0) + slack;
-  const double l3 = std::max(values.smallest, 0.0) + slack;
-  const double rise2 = std::min(extent3 * extent3, 2.0 * n * l3);
-  const double run2 = 4.0 * std::max(values.middle - slack, 0.0);
-  const double sine2 = run2 > rise2 ? rise2 / run2 : 1.0;
-  const double variance = l3 + (l2 - l3) * sine2;
-  return std::sqrt(variance * n / (n - 1.0)) * (1.0 + 1e-6) + 1e-6 * radius;
-}
 
 void evaluate_fold(const PrincipalFrame& frame, const FoldThresholds& thresholds, FoldScratch& s,
                    FoldEmission& emission) {

@@ -53,11 +53,34 @@ struct FoldScratch {
   std::vector<std::uint32_t> top;
 };
 
-/// An upper bound of C_f1 from the ball's shape alone: the chord is at least as long as 2 sqrt(lambda2) and rises by at
-/// most `extent3` along e3, so its normal is nearly e3; and |signed distance| varies less than the signed distance.
-/// Covers rounding. `extent3` may be infinite: then it is bounded by sqrt(2 n lambda3).
-double chord_deviation_bound(const Eigenvalues<double>& values, double n, double radius,
-                             double extent3 = std::numeric_limits<double>::infinity());
+/// An upper bound of C_f1 from the ball's shape alone: |signed distance| varies less than the signed distance, and the
+/// chord's normal is nearly e3. The chord rises by at most the extent along e3, and is at least as long as 2
+/// sqrt(lambda2) and as the extent along e2. Covers rounding. One ball or, with vectors of doubles, many.
+/// @param extent3  at least that along e3; may be infinite: then it is bounded by sqrt(2 n lambda3).
+/// @param extent2  at most that along e2.
+template <class V>
+ARRIS_ALWAYS_INLINE V chord_deviation_bound(const Eigenvalues<V>& values, const V& n, const V& radius, const V& extent3,
+                                            const V& extent2) {
+  const V zero = n - n;
+  // Nearly equal values may be off by 1e-8 of the largest, which is at most r².
+  const V slack = 1e-7 * radius * radius;
+  const V l2 = (values.middle > 0.0 ? values.middle : zero) + slack;
+  const V l3 = (values.smallest > 0.0 ? values.smallest : zero) + slack;
+  const V extent3_2 = extent3 * extent3;
+  const V spread3_2 = 2.0 * n * l3;
+  const V rise2 = spread3_2 < extent3_2 ? spread3_2 : extent3_2;
+  const V spread2_2 = 4.0 * (values.middle - slack);
+  const V extent2_2 = extent2 * extent2;
+  const V length2 = spread2_2 > extent2_2 ? spread2_2 : extent2_2;
+  const V sine2 = length2 > rise2 ? rise2 / length2 : zero + 1.0;
+  const V variance = l3 + (l2 - l3) * sine2;
+  return simd::square_root(variance * n / (n - 1.0)) * (1.0 + 1e-6) + 1e-6 * radius;
+}
+template <class V>
+ARRIS_ALWAYS_INLINE V chord_deviation_bound(const Eigenvalues<V>& values, const V& n, const V& radius) {
+  const V zero = n - n;
+  return chord_deviation_bound(values, n, radius, zero + std::numeric_limits<double>::infinity(), zero);
+}
 
 /// The full test on all members of the ball (its centre included) in the ball's principal frame. O(n log n) at worst,
 /// about O(n). Law: the outcome does not depend on the order of the members. Distances to the chord are compared after

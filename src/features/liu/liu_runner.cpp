@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "features/numerics/exact_math.h"
 
@@ -10,19 +11,22 @@ namespace arris {
 LiuRunner::LiuRunner(const LiuTask& task)
     : task_(task),
       neighbour_search_(task.tree, task.settings.limits()),
-      ball_search_(task.tree, task.settings.switches.narrowest, BallSearch::Exact::kSums) {}
+      ball_search_(task.tree, task.settings.switches.narrowest, BallSearch::Exact::kSums),
+      scales_(task.settings.scale) {
+  for (Boundary& waiting : boundaries_) waiting.neighbours.reserve(task.settings.limits().k);
+}
 
 void LiuRunner::run(std::span<const std::uint32_t> slots) {
   balls_.clear();
   thresholds_.clear();
   neighbour_search_.run(slots,
-                        [this](std::uint32_t slot, const Neighbours& neighbours) { use_neighbours(slot, neighbours); });
-  ball_search_.run(balls_, [this](const auto& candidates, const auto& query, const Ball& ball) {
-    test_fold(candidates, query, ball);
+                        [this](std::uint32_t slot, Neighbours& neighbours) { use_neighbours(slot, neighbours); });
+  ball_search_.run_groups(balls_, [this](const auto& candidates, const auto& queries, std::span<const Ball> balls) {
+    test_folds(candidates, queries, balls);
   });
 }
 
-void LiuRunner::use_neighbours(std::uint32_t slot, const Neighbours& neighbours) {
+void LiuRunner::use_neighbours(std::uint32_t slot, Neighbours& neighbours) {
   const LiuParameters& parameters = task_.settings.parameters;
   const LocalSpacing spacing = task_.settings.spacing(neighbours);
   const FoldThresholds fold = task_.settings.fold_thresholds(spacing);
@@ -31,10 +35,17 @@ void LiuRunner::use_neighbours(std::uint32_t slot, const Neighbours& neighbours)
     task_.results.add_isolated(slot);
     return;
   }
-  if (parameters.boundary) test_boundary(slot, neighbours, spacing);
   if (parameters.fold) {
     balls_.push_back({slot, fold.radius, static_cast<std::uint32_t>(thresholds_.size())});
     thresholds_.push_back(fold);
+  }
+  if (parameters.boundary) {
+    Boundary& waiting = boundaries_[boundary_count_];
+    waiting.slot = slot;
+    waiting.spacing = spacing;
+    std::swap(waiting.neighbours, neighbours);
+    scales_.set(boundary_count_++, waiting.neighbours);
+    if (boundary_count_ == boundaries_.size()) test_boundaries();
   }
 }
 
@@ -61,41 +72,86 @@ bool LiuRunner::proven(std::uint32_t slot, const Neighbours& neighbours, const F
   return false;
 }
 
-void LiuRunner::test_boundary(std::uint32_t slot, const Neighbours& neighbours, const LocalSpacing& spacing) {
-  const ScaleChoice choice = choose_scale(neighbours, task_.settings.scale);
-  if (choice.k == 0) return;
-  const PrincipalFrame frame = principal_frame(choice.covariance, choice.values);
+void LiuRunner::test_boundaries() {
+  if (boundary_count_ == 0) return;
+  scales_.solve();
+  for (std::size_t i = 0; i < boundary_count_; ++i) {
+    const ScaleChoice choice = scales_.choice(i);
+    frames_.set(i, choice.covariance, choice.values);
+  }
+  frames_.solve();
+  for (std::size_t i = 0; i < boundary_count_; ++i) {
+    const int k = scales_.choice(i).k;
+    if (k > 0) test_boundary(boundaries_[i], k, frames_.frame(i));
+  }
+  boundary_count_ = 0;
+}
+
+void LiuRunner::test_boundary(const Boundary& tested, int k, const PrincipalFrame& frame) {
+  const Neighbours& neighbours = tested.neighbours;
   GapQuery query;
   query.u = frame.e1;
   query.v = frame.e2;
-  query.count = static_cast<std::size_t>(choice.k);
-  const double far = task_.settings.far_distance(spacing);
-  const auto end = neighbours.d2.begin() + choice.k;
+  query.count = static_cast<std::size_t>(k);
+  const double far = task_.settings.far_distance(tested.spacing);
+  const auto end = neighbours.d2.begin() + k;
   query.near_count =
       static_cast<std::size_t>(std::upper_bound(neighbours.d2.begin(), end, far * far) - neighbours.d2.begin());
-  query.min_offset = 1e-6 * spacing.nearest;
+  query.min_offset = 1e-6 * tested.spacing.nearest;
   const AzimuthGapTest& test = task_.settings.gap_test;
-  task_.results.add_gap(slot, task_.settings.switches.early_rejection
-                                  ? test(neighbours, query, azimuths_)
-                                  : test.without_rejection(neighbours, query, azimuths_));
+  task_.results.add_gap(tested.slot, task_.settings.switches.early_rejection
+                                         ? test(neighbours, query, azimuths_)
+                                         : test.without_rejection(neighbours, query, azimuths_));
 }
 
 template <class T>
-void LiuRunner::test_fold(const CandidateSet<T>& candidates, const BallQuery<T>& ball, const Ball& tested) {
-  const PointTree& tree = task_.tree;
-  const FoldThresholds& thresholds = thresholds_[tested.query];
-  const double radius = thresholds.radius;
-  const BallMoments moments = ball_moments(candidates, ball);
-  if (moments.n < static_cast<double>(kLeastBallPoints)) return;
-  const SymmetricMatrix<double> covariance = moments.covariance();
-  const bool reject_early = task_.settings.switches.early_rejection;
-  const Eigenvalues<double> values = eigenvalues_of(covariance);
-  if (reject_early && chord_deviation_bound(values, moments.n, radius) < thresholds.cf1) return;
-  const PrincipalFrame frame = principal_frame(covariance, values);
-  if (reject_early) {
-    const double extent = extent_bound(candidates, ball, frame.e3);
-    if (chord_deviation_bound(values, moments.n, radius, extent) < thresholds.cf1) return;
+void LiuRunner::test_folds(const CandidateSet<T>& candidates, std::span<const BallQuery<T>> queries,
+                           std::span<const Ball> balls) {
+  const auto* left = balls.data();
+  const auto* const end = left + balls.size();
+  framed_count_ = 0;
+  while (left != end) {
+    std::array<const Ball*, FoldScreen::kCount> screened{};
+    std::size_t count = 0;
+    for (; left != end && count < screened.size(); ++left) {
+      const BallMoments moments = ball_moments(candidates, queries[static_cast<std::size_t>(left - balls.data())]);
+      if (moments.n < static_cast<double>(kLeastBallPoints)) continue;
+      screened[count] = left;
+      screen_.set(count++, moments, thresholds_[left->query]);
+    }
+    screen_.solve();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (task_.settings.switches.early_rejection && !screen_.may_fold(i)) continue;
+      frames_.set(framed_count_, screen_.covariance(i), screen_.values(i));
+      framed_[framed_count_++] = {screened[i], screen_.points(i)};
+      if (framed_count_ == framed_.size()) test_framed(candidates);
+    }
   }
+  test_framed(candidates);
+}
+
+template <class T>
+void LiuRunner::test_framed(const CandidateSet<T>& candidates) {
+  if (framed_count_ == 0) return;
+  frames_.solve();
+  for (std::size_t i = 0; i < framed_count_; ++i) {
+    const auto& [ball, points] = framed_[i];
+    const BallQuery<T> query = query_of(task_.tree, candidates, *ball);
+    const PrincipalFrame frame = frames_.frame(i);
+    if (task_.settings.switches.early_rejection) {
+      const FoldThresholds& thresholds = thresholds_[ball->query];
+      const auto [extent2, extent3] = extent_bounds(candidates, query, frame.e2, frame.e3);
+      const double bound = chord_deviation_bound(frame.values, points, thresholds.radius, extent3.most, extent2.least);
+      if (bound < thresholds.cf1) continue;
+    }
+    test_fold(candidates, query, *ball, frame);
+  }
+  framed_count_ = 0;
+}
+
+template <class T>
+void LiuRunner::test_fold(const CandidateSet<T>& candidates, const BallQuery<T>& ball, const Ball& tested,
+                          const PrincipalFrame& frame) {
   const std::size_t n = ball_members(candidates, ball, fold_.candidates);
   fold_.members.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -106,9 +162,9 @@ void LiuRunner::test_fold(const CandidateSet<T>& candidates, const BallQuery<T>&
     const std::uint32_t member = candidates.slot[c];
     fold_.members[i] = {static_cast<double>(dx), static_cast<double>(dy),
                         static_cast<double>(dz), static_cast<double>(dx * dx + dy * dy + dz * dz),
-                        tree.id(member),         member};
+                        task_.tree.id(member),   member};
   }
-  evaluate_fold(frame, thresholds, fold_, emission_);
+  evaluate_fold(frame, thresholds_[tested.query], fold_, emission_);
   const bool own_only = task_.settings.parameters.emit == LiuParameters::Emit::kSelf;
   for (const std::uint32_t emitted : emission_.slots) {
     if (!own_only || emitted == tested.slot) task_.results.add_fold(emitted, emission_.strength, emission_.angle_deg);

@@ -63,31 +63,46 @@ struct SumMembers {
   }
 };
 
-struct Extremes {
+/// The least and the greatest coordinate along a direction.
+template <class V>
+struct Range {
+  V least{};  // The centre itself is a member, at 0.
+  V most{};
+
+  ARRIS_ALWAYS_INLINE void add(const V& v) {
+    least = v < least ? v : least;
+    most = v > most ? v : most;
+  }
+  ARRIS_ALWAYS_INLINE double extent() const {
+    double low = 0.0;
+    double high = 0.0;
+    for (std::size_t lane = 0; lane < sizeof(V) / sizeof(least[0]); ++lane) {
+      low = std::min(low, static_cast<double>(least[lane]));
+      high = std::max(high, static_cast<double>(most[lane]));
+    }
+    return high - low;
+  }
+};
+
+struct Extents {
   template <int Bytes, class T>
-  static ARRIS_ALWAYS_INLINE void run(const CandidateSet<T>& c, const BallQuery<T>& ball, const Vector3& e, double& low,
-                                      double& high) {
+  static ARRIS_ALWAYS_INLINE void run(const CandidateSet<T>& c, const BallQuery<T>& ball, const Vector3& e,
+                                      const Vector3& f, double (&extents)[2]) {
     using V = typename simd::VectorOf<T, Bytes>::Type;
-    const T ex = static_cast<T>(e[0]);
-    const T ey = static_cast<T>(e[1]);
-    const T ez = static_cast<T>(e[2]);
-    V least{};  // The centre itself is a member, at 0.
-    V most{};
+    const T ex = static_cast<T>(e[0]), ey = static_cast<T>(e[1]), ez = static_cast<T>(e[2]);
+    const T fx = static_cast<T>(f[0]), fy = static_cast<T>(f[1]), fz = static_cast<T>(f[2]);
+    Range<V> along_e, along_f;
     const std::size_t end = simd::padded(c.count);
     for (std::size_t i = 0; i < end; i += simd::VectorOf<T, Bytes>::kLanes) {
       const V dx = simd::load<V>(c.x.data() + i) - ball.x;
       const V dy = simd::load<V>(c.y.data() + i) - ball.y;
       const V dz = simd::load<V>(c.z.data() + i) - ball.z;
       const auto inside = (dx * dx + dy * dy + dz * dz) <= ball.radius2;
-      const V along = dx * ex + dy * ey + dz * ez;
-      const V masked = inside ? along : V{};
-      least = masked < least ? masked : least;
-      most = masked > most ? masked : most;
+      along_e.add(inside ? dx * ex + dy * ey + dz * ez : V{});
+      along_f.add(inside ? dx * fx + dy * fy + dz * fz : V{});
     }
-    for (std::size_t lane = 0; lane < simd::VectorOf<T, Bytes>::kLanes; ++lane) {
-      low = std::min(low, static_cast<double>(least[lane]));
-      high = std::max(high, static_cast<double>(most[lane]));
-    }
+    extents[0] = along_e.extent();
+    extents[1] = along_f.extent();
   }
 };
 
@@ -143,16 +158,20 @@ BallMoments ball_moments(const CandidateSet<T>& candidates, const BallQuery<T>& 
 }
 
 template <class T>
-double extent_bound(const CandidateSet<T>& candidates, const BallQuery<T>& ball, const Vector3& e) {
-  double low = 0.0;
-  double high = 0.0;
+std::array<ExtentBounds, 2> extent_bounds(const CandidateSet<T>& candidates, const BallQuery<T>& ball, const Vector3& e,
+                                          const Vector3& f) {
   const double radius = std::sqrt(static_cast<double>(ball.radius2));
   if constexpr (std::is_same_v<T, std::int64_t>) {
-    return 2.0 * radius;  // The slow path does without this rejection.
+    return {{{0.0, 2.0 * radius}, {0.0, 2.0 * radius}}};  // The slow path does without this rejection.
   } else {
-    simd::dispatch<Extremes>(candidates, ball, e, low, high);
+    double extents[2];
+    simd::dispatch<Extents>(candidates, ball, e, f, extents);
     // The dot product of three terms in T is off by less than 4 epsilon r at each end.
-    return (high - low) + 16.0 * static_cast<double>(std::numeric_limits<T>::epsilon()) * radius;
+    const double margin = 16.0 * static_cast<double>(std::numeric_limits<T>::epsilon()) * radius;
+    const auto bounds = [margin](double extent) {
+      return ExtentBounds{std::max(extent - margin, 0.0), extent + margin};
+    };
+    return {bounds(extents[0]), bounds(extents[1])};
   }
 }
 
@@ -176,9 +195,12 @@ template bool ball_sums_are_exact<std::int64_t>(double);
 template BallMoments ball_moments(const CandidateSet<float>&, const BallQuery<float>&);
 template BallMoments ball_moments(const CandidateSet<double>&, const BallQuery<double>&);
 template BallMoments ball_moments(const CandidateSet<std::int64_t>&, const BallQuery<std::int64_t>&);
-template double extent_bound(const CandidateSet<float>&, const BallQuery<float>&, const Vector3&);
-template double extent_bound(const CandidateSet<double>&, const BallQuery<double>&, const Vector3&);
-template double extent_bound(const CandidateSet<std::int64_t>&, const BallQuery<std::int64_t>&, const Vector3&);
+template std::array<ExtentBounds, 2> extent_bounds(const CandidateSet<float>&, const BallQuery<float>&, const Vector3&,
+                                                   const Vector3&);
+template std::array<ExtentBounds, 2> extent_bounds(const CandidateSet<double>&, const BallQuery<double>&,
+                                                   const Vector3&, const Vector3&);
+template std::array<ExtentBounds, 2> extent_bounds(const CandidateSet<std::int64_t>&, const BallQuery<std::int64_t>&,
+                                                   const Vector3&, const Vector3&);
 template std::size_t ball_members(const CandidateSet<float>&, const BallQuery<float>&, std::vector<std::uint32_t>&);
 template std::size_t ball_members(const CandidateSet<double>&, const BallQuery<double>&, std::vector<std::uint32_t>&);
 template std::size_t ball_members(const CandidateSet<std::int64_t>&, const BallQuery<std::int64_t>&,

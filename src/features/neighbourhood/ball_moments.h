@@ -1,6 +1,7 @@
 #pragma once
 /// @file Exact moments of the points within a ball, and how far they spread along a direction.
 
+#include <array>
 #include <cstddef>
 
 #include "features/neighbourhood/candidate_set.h"
@@ -31,10 +32,14 @@ bool ball_sums_are_exact(double radius);
 template <class T>
 BallMoments ball_moments(const CandidateSet<T>& candidates, const BallQuery<T>& ball);
 
-/// Upper bound of the members' extent along the unit vector e, steps: never below what any evaluation in double can
-/// give.
+/// How far the members extend along a direction, steps: no evaluation in double leaves these bounds.
+struct ExtentBounds {
+  double least = 0.0, most = 0.0;
+};
+/// Along the unit vectors e and f.
 template <class T>
-double extent_bound(const CandidateSet<T>& candidates, const BallQuery<T>& ball, const Vector3& e);
+std::array<ExtentBounds, 2> extent_bounds(const CandidateSet<T>& candidates, const BallQuery<T>& ball, const Vector3& e,
+                                          const Vector3& f);
 
 /// Members (indices of candidates) in ascending order of candidates.
 template <class T>

@@ -19,6 +19,15 @@ struct Ball {
   std::uint32_t query = 0;
 };
 
+/// What to ask of candidates that were gathered around the ball.
+template <class T>
+BallQuery<T> query_of(const PointTree& tree, const CandidateSet<T>& candidates, const Ball& ball) {
+  return {static_cast<T>(tree.x()[ball.slot] - candidates.origin[0]),
+          static_cast<T>(tree.y()[ball.slot] - candidates.origin[1]),
+          static_cast<T>(tree.z()[ball.slot] - candidates.origin[2]),
+          static_cast<T>(static_cast<std::uint64_t>(ball.radius * ball.radius))};
+}
+
 /// The points in balls that are close together. Not thread-safe.
 class BallSearch {
  public:
@@ -80,12 +89,7 @@ class BallSearch {
     if (!candidates.gather(tree_, box, reach)) return false;
     if (exact_ == Exact::kSums && !ball_sums_are_exact<T>(reach)) return false;
     work.queries.clear();
-    for (const Ball& ball : balls) {
-      work.queries.push_back({static_cast<T>(tree_.x()[ball.slot] - candidates.origin[0]),
-                              static_cast<T>(tree_.y()[ball.slot] - candidates.origin[1]),
-                              static_cast<T>(tree_.z()[ball.slot] - candidates.origin[2]),
-                              static_cast<T>(static_cast<std::uint64_t>(ball.radius * ball.radius))});
-    }
+    for (const Ball& ball : balls) work.queries.push_back(query_of(tree_, candidates, ball));
     use(static_cast<const CandidateSet<T>&>(candidates), std::span<const BallQuery<T>>(work.queries), balls);
     return true;
   }
@@ -122,9 +126,9 @@ class SharedBalls {
       return;
     }
     if (gathered_ == Gathered::kFloats) {
-      use(static_cast<const CandidateSet<float>&>(floats_), query_of(floats_, ball));
+      use(static_cast<const CandidateSet<float>&>(floats_), query_of(tree_, floats_, ball));
     } else {
-      use(static_cast<const CandidateSet<double>&>(doubles_), query_of(doubles_, ball));
+      use(static_cast<const CandidateSet<double>&>(doubles_), query_of(tree_, doubles_, ball));
     }
   }
 
@@ -142,14 +146,6 @@ class SharedBalls {
       gathered_ = Gathered::kDoubles;
     }
     return gathered_ != Gathered::kNothing;
-  }
-
-  template <class T>
-  BallQuery<T> query_of(const CandidateSet<T>& candidates, const Ball& ball) const {
-    return {static_cast<T>(tree_.x()[ball.slot] - candidates.origin[0]),
-            static_cast<T>(tree_.y()[ball.slot] - candidates.origin[1]),
-            static_cast<T>(tree_.z()[ball.slot] - candidates.origin[2]),
-            static_cast<T>(static_cast<std::uint64_t>(ball.radius * ball.radius))};
   }
 
   const PointTree& tree_;

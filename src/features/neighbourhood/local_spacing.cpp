@@ -20,25 +20,48 @@ struct Weights {
 };
 const Weights kWeights;
 
-struct Terms {
+constexpr std::size_t kParts = 4;
+
+/// The distances of the nearest neighbours; and sums over neighbours [first, n) in kParts interleaved parts, neighbour
+/// j in part j % kParts.
+struct Sums {
+  double roots[simd::kPadding];
+  double parts[kParts];
+};
+
+struct Kernel {
+  /// Reads up to simd::padded(n).
   template <int Bytes>
-  static ARRIS_ALWAYS_INLINE void run(const double* d2, const double* weights, std::size_t n, double* terms) {
+  static ARRIS_ALWAYS_INLINE void run(const double* d2, const double* weights, std::size_t first, std::size_t n,
+                                      Sums& sums) {
     using V = typename simd::Wide<Bytes>::Double;
-    for (std::size_t j = 0; j < n; j += Bytes / sizeof(double)) {
-      const V term = simd::square_root(simd::load<V>(d2 + j)) * simd::load<V>(weights + j);
-      simd::store(terms + j, term);
+    using Parts = typename simd::Wide<kParts * sizeof(double)>::Double;
+    constexpr std::size_t kLanes = Bytes / sizeof(double);
+    for (std::size_t j = 0; j < kNearest; j += kLanes) {
+      simd::store(sums.roots + j, simd::square_root(simd::load<V>(d2 + j)));
     }
+    double terms[simd::padded(256)];
+    const std::size_t aligned = first / 8 * 8;
+    const std::size_t end = simd::padded(n);
+    for (std::size_t j = aligned; j < end; j += kLanes) {
+      simd::store(terms + j, simd::square_root(simd::load<V>(d2 + j)) * simd::load<V>(weights + j));
+    }
+    for (std::size_t j = aligned; j < first; ++j) terms[j] = 0.0;  // Adds nothing.
+    for (std::size_t j = n; j < end; ++j) terms[j] = 0.0;
+    Parts parts{};
+    for (std::size_t j = aligned; j < end; j += kParts) parts += simd::load<Parts>(terms + j);
+    simd::store(sums.parts, parts);
   }
 };
 
-/// Sum over neighbours [first, n) in four interleaved parts.
-double weighted_sum(const double* d2, std::size_t first, std::size_t n) {
-  double terms[simd::padded(256)];
-  const std::size_t aligned = first / 8 * 8;
-  simd::dispatch<Terms>(d2 + aligned, kWeights.at + aligned, n - aligned, terms);
-  double parts[4] = {};
-  for (std::size_t j = first; j < n; ++j) parts[j % 4] += terms[j - aligned];
-  return (parts[0] + parts[1]) + (parts[2] + parts[3]);
+Sums sums_of(const double* d2, std::size_t n) {
+  Sums sums;
+  simd::dispatch<Kernel>(d2, kWeights.at, n / 2, n, sums);
+  return sums;
+}
+
+double density_of(const Sums& sums, std::size_t n) {
+  return ((sums.parts[0] + sums.parts[1]) + (sums.parts[2] + sums.parts[3])) / static_cast<double>(n - n / 2);
 }
 
 }  // namespace
@@ -48,15 +71,15 @@ LocalSpacing local_spacing(const Neighbours& neighbours) {
   const std::size_t n = neighbours.count;
   if (n == 0) return spacing;
   const std::size_t nearest = std::min(n, kNearest);
-  for (std::size_t j = 0; j < nearest; ++j) spacing.nearest += std::sqrt(neighbours.d2[j]);
+  const Sums sums = sums_of(neighbours.d2.data(), n);
+  for (std::size_t j = 0; j < nearest; ++j) spacing.nearest += sums.roots[j];
   spacing.nearest /= static_cast<double>(nearest);
-  spacing.density = density_spacing(neighbours.d2.data(), n);
+  spacing.density = density_of(sums, n);
   return spacing;
 }
 
 double density_spacing(const double* d2, std::size_t n) {
-  const std::size_t first = n / 2;
-  return weighted_sum(d2, first, n) / static_cast<double>(n - first);
+  return density_of(sums_of(d2, n), n);
 }
 
 }  // namespace arris

@@ -9,8 +9,11 @@
 namespace arris {
 namespace {
 
-/// Above this many, a comparison sort beats counting.
-constexpr std::size_t kMostRanked = 160;
+/// A key is a squared distance followed by the place in the list, so that no two are equal.
+constexpr int kPlaceBits = 7;
+/// More than this many do not fit a key; about there a comparison sort begins to beat counting.
+constexpr std::size_t kMostRanked = std::size_t{1} << kPlaceBits;
+static_assert(kExactSquares<float> * kMostRanked <= 2147483648.0 && kExactSquares<double> * kMostRanked <= 9.2e18);
 
 template <class T>
 ARRIS_ALWAYS_INLINE std::size_t collect_within(const CandidateSet<T>& c, const NearestQuery<T>& q, T limit, T* d2_out,
@@ -93,38 +96,48 @@ std::size_t collect(const CandidateSet<T>& c, const NearestQuery<T>& q, T limit,
   return collect_within(c, q, limit, d2, candidate);
 }
 
-/// rank[i] = how many of the n values are smaller than values[i]. `values` is padded to full vectors.
+/// rank[i] = how many of the n <= kMostRanked values are smaller than values[i], or equal and further in front.
 struct CountSmaller {
   template <int Bytes, class T>
   static ARRIS_ALWAYS_INLINE void run(const T* values, std::size_t n, std::int32_t* rank) {
     using V = typename simd::VectorOf<T, Bytes>::Type;
-    using Mask = typename simd::VectorOf<T, Bytes>::Mask;
+    using Keys = typename simd::VectorOf<T, Bytes>::Mask;
+    using Key = std::conditional_t<std::is_same_v<T, float>, std::int32_t, std::int64_t>;
     constexpr std::size_t kLanes = simd::VectorOf<T, Bytes>::kLanes;
+    alignas(64) Key keys[kMostRanked];
+    Keys place;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) place[lane] = static_cast<Key>(lane);
     for (std::size_t block = 0; block < n; block += kLanes) {
-      const V mine = simd::load<V>(values + block);
-      Mask smaller{};
-      for (std::size_t j = 0; j < n; ++j) smaller -= (mine > values[j]);
+      simd::store(keys + block, (__builtin_convertvector(simd::load<V>(values + block), Keys) << kPlaceBits) + place);
+      place += static_cast<Key>(kLanes);
+    }
+    for (std::size_t block = 0; block < n; block += kLanes) {
+      const auto mine = simd::load<Keys>(keys + block);
+      Keys smaller{};
+      for (std::size_t j = 0; j < n; ++j) smaller -= (mine > keys[j]);
       for (std::size_t lane = 0; lane < kLanes; ++lane) rank[block + lane] = static_cast<std::int32_t>(smaller[lane]);
     }
   }
 };
 
-/// Returns whether any two are equally far.
 template <class T>
-bool sort_by_rank(NearestScratch<T>& s, std::size_t n) {
-  for (std::size_t i = n; i < simd::padded(n); ++i) s.d2[i] = std::numeric_limits<T>::infinity();
+void sort_by_rank(NearestScratch<T>& s, std::size_t n) {
   const T* values = s.d2.data();
+  for (std::size_t i = n; i < simd::padded(n); ++i) s.d2[i] = T{0};  // Ranked too, but nobody asks for it.
   simd::dispatch<CountSmaller>(values, n, s.rank.data());
-  constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
-  std::fill_n(s.sorted.begin(), n, kFree);
-  bool ties = false;
   for (std::size_t i = 0; i < n; ++i) {
-    std::size_t place = static_cast<std::size_t>(s.rank[i]);
-    for (; s.sorted[place] != kFree; ++place) ties = true;  // Any order here, by id afterwards.
+    const auto place = static_cast<std::size_t>(s.rank[i]);
     s.sorted[place] = s.candidate[i];
     s.sorted_d2[place] = s.d2[i];
   }
-  return ties;
+}
+
+/// Whether any of the first `wanted` is as far as the one after it.
+template <class T>
+bool has_ties(const NearestScratch<T>& s, std::size_t n, std::size_t wanted) {
+  int ties = 0;
+  for (std::size_t i = 0; i < std::min(wanted, n - 1); ++i) ties |= s.sorted_d2[i] == s.sorted_d2[i + 1];
+  return ties != 0;
 }
 
 template <class T>
@@ -188,15 +201,14 @@ void select_nearest(const PointTree& tree, const CandidateSet<T>& candidates, co
     limit = next >= static_cast<double>(query.max_d2) ? query.max_d2 : static_cast<T>(next);
   }
   const std::size_t wanted = std::min(n, query.k + 1);  // With the query itself, which comes first.
-  bool ties = true;
   if constexpr (std::is_same_v<T, std::int64_t>) {
     sort_by_comparison(scratch, n, wanted);
   } else if (n <= kMostRanked) {
-    ties = sort_by_rank(scratch, n);
+    sort_by_rank(scratch, n);
   } else {
     sort_by_comparison(scratch, n, wanted);
   }
-  if (ties) order_ties(tree, candidates, scratch, n, wanted);
+  if (has_ties(scratch, n, wanted)) order_ties(tree, candidates, scratch, n, wanted);
   found.count = wanted - 1;
   for (std::size_t i = 0; i < found.count; ++i) {
     const std::uint32_t c = scratch.sorted[i + 1];

@@ -32,7 +32,8 @@ class NearestSearch {
     neighbours_.reserve(limits.k);
   }
 
-  /// Calls use(slot, neighbours) once per slot, in any order.
+  /// Calls use(slot, neighbours) once per slot, in any order. To keep neighbours, `use` may swap others with room for k
+  /// for them.
   template <class Use>
   void run(std::span<const std::uint32_t> slots, Use&& use) {
     if (slots.empty()) return;
@@ -104,7 +105,7 @@ class NearestSearch {
       if (find(work, slot, reach)) {
         reach_sum_ += std::sqrt(static_cast<double>(neighbours_.last_d2));
         ++measured_;
-        use(slot, static_cast<const Found&>(neighbours_));
+        use(slot, neighbours_);
       } else {
         pending_.push_back(slot);
       }

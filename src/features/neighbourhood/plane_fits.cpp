@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "features/numerics/principal_frames.h"
+#include "features/numerics/frame_lanes.h"
 
 namespace arris {
 namespace {
@@ -27,9 +27,8 @@ struct Fits {
       const auto& [n, x, y, z, xx, xy, xz, yy, yz, zz] = sums;
       const V inverse = 1.0 / n;
       const V mx = x * inverse, my = y * inverse, mz = z * inverse;
-      const PrincipalFrames<V> f =
-          principal_frames<V>({xx * inverse - mx * mx, xy * inverse - mx * my, xz * inverse - mx * mz,
-                               yy * inverse - my * my, yz * inverse - my * mz, zz * inverse - mz * mz});
+      const FrameLanes<V> f = frame_lanes<V>({xx * inverse - mx * mx, xy * inverse - mx * my, xz * inverse - mx * mz,
+                                              yy * inverse - my * my, yz * inverse - my * mz, zz * inverse - mz * mz});
       const V zero{};
       const V results[kResults] = {f.e3.x,
                                    f.e3.y,

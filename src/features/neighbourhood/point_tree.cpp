@@ -26,48 +26,46 @@ ClosedBox box_of(std::span<const Item> items) {
   return box;
 }
 
-/// Moves the items for which `before` is true to the front, without branches; returns the end of them.
+/// Puts the items for which `before` holds in front, without branches; returns how many.
 template <class Before>
-Item* part(Item* first, Item* last, Before&& before) {
-  Item* end = first;
-  for (Item* it = first; it < last; ++it) {
-    const Item item = *it;
-    *it = *end;
-    *end = item;
-    end += before(item);
+std::size_t part(std::span<Item> items, Before before) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const Item item = items[i];
+    items[i] = items[n];
+    items[n] = item;
+    n += before(item);
   }
-  return end;
+  return n;
 }
 
-/// The middle of some coordinates, evenly picked.
-std::int32_t middle_of_some(const Item* first, const Item* last, int axis) {
-  constexpr std::ptrdiff_t kMost = 31;
-  std::int32_t some[kMost];
-  const std::ptrdiff_t count = std::min(kMost, (last - first) / 16 | 1);
-  for (std::ptrdiff_t i = 0; i < count; ++i) some[i] = first[(last - first) * i / count].at[axis];
-  std::nth_element(some, some + count / 2, some + count);
-  return some[count / 2];
-}
-
-/// std::nth_element along an axis. Scans leave nothing for a branch predictor to learn: items are parted without
-/// branches, in a number of rounds that only contrived clouds exceed.
-void select(Item* first, Item* nth, Item* last, int axis) {
-  constexpr std::ptrdiff_t kFew = 24;
-  constexpr int kMostRounds = 48;
-  for (int round = 0; round < kMostRounds && last - first > kFew; ++round) {
-    const std::int32_t pivot = middle_of_some(first, last, axis);
-    Item* middle = part(first, last, [=](const Item& item) { return item.at[axis] < pivot; });
-    if (nth < middle) {
-      last = middle;
+/// As std::nth_element, but in most rounds no branch depends on an item.
+void select(std::span<Item> items, std::size_t nth, int axis) {
+  constexpr std::size_t kFew = 32;
+  constexpr int kMostRounds = 64;  // Against orders that make every pivot a bad one.
+  for (int round = 0; round < kMostRounds && items.size() > kFew; ++round) {
+    const std::size_t last = items.size() - 1;
+    std::int32_t sample[] = {items[0].at[axis], items[last / 4].at[axis], items[last / 2].at[axis],
+                             items[last / 4 * 3].at[axis], items[last].at[axis]};
+    std::sort(std::begin(sample), std::end(sample));
+    const std::int32_t pivot = sample[2];
+    const std::size_t below = part(items, [=](const Item& item) { return item.at[axis] < pivot; });
+    if (nth < below) {
+      items = items.first(below);
       continue;
     }
-    if (middle == first) {  // Nothing is smaller than the pivot: its equals go first.
-      middle = part(first, last, [=](const Item& item) { return item.at[axis] == pivot; });
-      if (nth < middle) return;
-    }
-    first = middle;
+    const bool uneven = below < items.size() / 8;
+    items = items.subspan(below);
+    nth -= below;
+    if (!uneven) continue;
+    // Many may be equal to the pivot.
+    const std::size_t equal = part(items, [=](const Item& item) { return item.at[axis] == pivot; });
+    if (nth < equal) return;
+    items = items.subspan(equal);
+    nth -= equal;
   }
-  std::nth_element(first, nth, last, [axis](const Item& a, const Item& b) { return a.at[axis] < b.at[axis]; });
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(nth), items.end(),
+                   [axis](const Item& a, const Item& b) { return a.at[axis] < b.at[axis]; });
 }
 
 struct Builder {
@@ -94,7 +92,7 @@ struct Builder {
       }
     }
     const std::size_t middle = begin_of(2 * number + 1, level + 1);
-    select(items.data() + begin, items.data() + middle, items.data() + end, axis);
+    select(std::span(items).subspan(begin, end - begin), middle - begin, axis);
   }
 
   void build_below(std::size_t node, int level) const {

@@ -21,9 +21,10 @@ struct ClosedBox {
 inline double squared_distance(const ClosedBox& a, const ClosedBox& b) {
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::int64_t below = std::int64_t{a.min[axis]} - b.max[axis];
-    const std::int64_t above = std::int64_t{b.min[axis]} - a.max[axis];
-    const double gap = static_cast<double>(std::max({below, above, std::int64_t{0}}));
+    // Differences of 32-bit integers are exact in double.
+    const double below = static_cast<double>(a.min[axis]) - b.max[axis];
+    const double above = static_cast<double>(b.min[axis]) - a.max[axis];
+    const double gap = std::max(std::max(below, above), 0.0);
     sum += gap * gap;
   }
   return sum;

@@ -78,14 +78,6 @@ ARRIS_ALWAYS_INLINE void store(T* to, const V& v) {
   std::memcpy(to, &v, sizeof(V));
 }
 
-/// In the order of the lanes.
-template <class V>
-ARRIS_ALWAYS_INLINE double lane_sum(const V& v) {
-  double sum = 0.0;
-  for (std::size_t lane = 0; lane < sizeof(V) / sizeof(v[0]); ++lane) sum += static_cast<double>(v[lane]);
-  return sum;
-}
-
 ARRIS_ALWAYS_INLINE double square_root(double v) {
   return std::sqrt(v);
 }

@@ -1,0 +1,41 @@
+#pragma once
+/// @file choose_scale() for eight queries at once.
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "features/liu/entropy_scale.h"
+
+namespace arris {
+
+/// Law: the choices are those of choose_scale(), bit by bit, at every vector width. Not thread-safe.
+class ScaleBatch {
+ public:
+  static constexpr std::size_t kCount = 8;
+
+  explicit ScaleBatch(const ScaleRange& range);
+
+  /// @param neighbours  of query i; those beyond k_max are left out.
+  void set(std::size_t i, const Neighbours& neighbours);
+  /// All eight; those that were never set give anything. O(k_max).
+  void solve();
+  ScaleChoice choice(std::size_t i) const;
+
+ private:
+  struct Kernel;
+  using Lanes = std::array<double, kCount>;
+  struct alignas(64) Offset {
+    Lanes x{}, y{}, z{};
+  };
+  struct alignas(64) Choices {
+    Lanes k{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{}, largest{}, middle{}, smallest{};
+  };
+
+  ScaleRange range_;
+  std::vector<Offset> offsets_;  ///< Of the j-th neighbours of all queries.
+  alignas(64) Lanes count_{};
+  Choices choices_;
+};
+
+}  // namespace arris
