@@ -23,23 +23,25 @@ struct SegmentCommand {
   bool mixed_crs = false;
 };
 
+std::string describe_neighbours(const SegmentParameters& p) {
+  if (p.radius > 0.0) return fmt::format("neighbours within {:.4g}", p.radius);
+  if (p.adaptive() && p.most_by_noise > kFewestNeighbours)
+    return fmt::format("{} to {} neighbours (noise {:.2g})", kFewestNeighbours, p.most_by_noise, p.noise);
+  return fmt::format("{} neighbours", p.most_neighbours());
+}
+
 std::string describe_segments(const pipeline::SegmentReport& r, const std::string& memory_why) {
   double seconds = 0.0;
   for (const auto& [phase, s] : r.seconds) seconds += s;
-  const std::string neighbours =
-      r.parameters.radius > 0.0
-          ? fmt::format("neighbours within {:.4g}", r.parameters.radius)
-          : fmt::format("{} neighbours{}", r.parameters.nearest(),
-                        r.noise_over_spacing ? fmt::format(" (noise {:.2g} spacings)", *r.noise_over_spacing) : "");
   std::string text = fmt::format(
       "{}, angle {:g} degrees{}; spacing about {:.4g}, lattice step {:g}\n"
       "memory {} ({}), {} threads; {} tiles of at most {} points\n"
       "{} points, {} segments with {} points\n"
       "{:.1f} s, {:.1f} CPU s, peak memory {} of {}",
-      neighbours, r.parameters.angle_deg, r.parameters.published ? ", as published" : "", r.spacing, r.lattice.step,
-      human_bytes(r.memory_budget_bytes), memory_why, r.threads, grouped(r.tiles), grouped(r.largest_tile_points),
-      grouped(r.points_in), grouped(r.segments), grouped(r.labelled), seconds, r.cpu_seconds,
-      human_bytes(r.peak_resident_bytes), human_bytes(r.memory_budget_bytes));
+      describe_neighbours(r.parameters), r.parameters.angle_deg, r.parameters.published ? ", as published" : "",
+      r.spacing, r.lattice.step, human_bytes(r.memory_budget_bytes), memory_why, r.threads, grouped(r.tiles),
+      grouped(r.largest_tile_points), grouped(r.points_in), grouped(r.segments), grouped(r.labelled), seconds,
+      r.cpu_seconds, human_bytes(r.peak_resident_bytes), human_bytes(r.memory_budget_bytes));
   for (const std::string& output : r.outputs) text += "\nwrote " + printable(output);
   return text;
 }

@@ -15,9 +15,10 @@ void add_segment_options(CLI::App& verb, SegmentOptions& o) {
   const auto length = [&](const char* name, std::string& value, const char* what) {
     verb.add_option(name, value, what)->group(group);
   };
-  verb.add_option("-k,--neighbours", p.neighbours,
-                  "Nearest neighbours of a point, 3 to 64 (default 8; up to 32 where the noise is large against the "
-                  "spacing)")
+  verb.add_option(
+          "-k,--neighbours", p.neighbours,
+          "Nearest neighbours of a point, 3 to 64 (default 8, and up to 32 where points are closer to each other "
+          "than the noise of the scan allows or lie along scan lines)")
       ->group(group);
   length("--radius", o.radius, "All points this near are neighbours, 64 at most, instead of the nearest (length)");
   length("--max-radius", o.max_radius, "Neighbours are never farther (length; default: 120 spacings of the scan)");

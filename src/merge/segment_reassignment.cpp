@@ -54,10 +54,16 @@ class Judge {
         at_best = d;
       }
     }
-    return best;
+    return best == own && own != 0 && is_stray(planes_[own - 1], at_best, limit_[own - 1]) ? 0 : best;
   }
 
  private:
+  /// A point of a flat segment that the segment would not have been given.
+  bool is_stray(const SegmentPlane& plane, double distance, double limit) const {
+    if (published_ || !(plane.rms < kMostFlatRms * plane.spacing)) return false;
+    return std::fabs(distance) > std::max(kStrayRms * plane.rms, limit);
+  }
+
   /// Whether a point at signed distances d_a and d_b of two planes belongs to a rather than to b.
   bool is_nearer(std::uint32_t a, double d_a, std::uint32_t b, double d_b) const {
     const bool nearer = std::fabs(d_a) < std::fabs(d_b) || (std::fabs(d_a) == std::fabs(d_b) && a < b);

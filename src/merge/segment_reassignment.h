@@ -22,6 +22,9 @@ constexpr double kMostReassign = 0.35;
 /// Segments with a larger RMS, in spacings, are curved: their points are not where their plane is, and do not leave for
 /// another one.
 constexpr double kMostPlanarRms = 0.5;
+/// Not as published: what a segment flatter than this, in spacings, holds farther off than d_re and kStrayRms RMS goes.
+constexpr double kMostFlatRms = 0.15;
+constexpr double kStrayRms = 4.0;
 
 struct ReassignmentSetup {
   const SegmentParameters& parameters;
@@ -30,9 +33,10 @@ struct ReassignmentSetup {
 };
 
 /// One sweep. Every frontier point looks at the segments of its neighbours (and, not as published, at its own): the
-/// plane at the least distance takes it, if that is at most d_re (ties: the smaller number). As published only points
-/// without a segment do so. All decide by the labels and planes from before the sweep, so no order matters; then
-/// labels, moments and planes are brought up to date.
+/// plane at the least distance takes it, if that is at most d_re (ties: the smaller number); what is too far from its
+/// own flat plane and is taken by none is in no segment. As published only points without a segment do so. All decide
+/// by the labels and planes from before the sweep, so no order matters; then labels, moments and planes are brought up
+/// to date.
 /// @param planes  one per segment; spacing set. @return points that changed.
 std::uint64_t reassign(const ReassignmentSetup& setup, const SegmentFrontier& frontier,
                        const DuplicatePoints& duplicates, PointLabels& labels, SegmentMoments& moments,

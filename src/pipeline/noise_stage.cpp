@@ -12,10 +12,10 @@ namespace arris::pipeline {
 namespace {
 
 /// Side of a cell: it holds a few hundred points of a surface, many of them with all their neighbours.
-constexpr double kCellSpacings = 24.0;
+constexpr double kCellSpacings = 8.0;
 
 /// Cells with more say nothing: one heap of points must not take the memory.
-constexpr std::size_t kMostCellPoints = 20'000;
+constexpr std::size_t kMostCellPoints = 200'000;
 
 /// splitmix64 of the cell's place.
 std::uint64_t hash_of(std::int64_t x, std::int64_t y, std::int64_t z) {
@@ -29,13 +29,33 @@ std::uint64_t hash_of(std::int64_t x, std::int64_t y, std::int64_t z) {
   return h;
 }
 
+/// Absolute cells. Their faces lie off round coordinates, where floors and walls of drawn models are: planes in a face
+/// have all their points near the end of what is seen.
+struct SampleGrid {
+  int shift;
+
+  std::int64_t offset() const { return (std::int64_t{1} << shift) * 3 / 8; }
+  LatticePoint cell_of(const LatticePoint& p) const {
+    const auto cell = [this](std::int32_t c) { return static_cast<std::int32_t>((c + offset()) >> shift); };
+    return {cell(p.x), cell(p.y), cell(p.z)};
+  }
+  LatticeBox box_of(const LatticePoint& cell) const {
+    LatticeBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.min[axis] = (std::int64_t{cell[axis]} << shift) - offset();
+      box.max[axis] = box.min[axis] + (std::int64_t{1} << shift);
+    }
+    return box;
+  }
+};
+
 }  // namespace
 
-double estimate_noise(io::InputSet& inputs, const tiling::Survey& survey, ProgressSink& progress,
-                      const CancelToken& cancel) {
+ScanNoise estimate_noise(io::InputSet& inputs, const tiling::Survey& survey, ProgressSink& progress,
+                         const CancelToken& cancel) {
   progress.phase("noise", inputs.points());
   const double side_steps = std::max(kCellSpacings * survey.spacing / survey.lattice.step, 8.0);
-  const int shift = std::min(30, static_cast<int>(std::ceil(std::log2(side_steps))));
+  const SampleGrid grid{std::min(30, static_cast<int>(std::ceil(std::log2(side_steps))))};
   const double share = std::min(1.0, kNoiseSample / std::max<double>(1.0, static_cast<double>(survey.points())));
   const auto limit = static_cast<std::uint64_t>(share * 4294967295.0);
   const tiling::LatticeMapper mapper(inputs.sources(), survey.lattice);
@@ -51,7 +71,7 @@ double estimate_noise(io::InputSet& inputs, const tiling::Survey& survey, Progre
     mapper.map(batch, inputs.source_index(), positions, outcome);
     for (std::size_t i = 0; i < batch.count; ++i) {
       if (outcome[i] != tiling::Mapped::kOk) continue;
-      const LatticePoint cell{positions[i].x >> shift, positions[i].y >> shift, positions[i].z >> shift};
+      const LatticePoint cell = grid.cell_of(positions[i]);
       if (cell != last_cell) {
         last_cell = cell;
         last_drawn = (hash_of(cell.x, cell.y, cell.z) >> 32) <= limit;
@@ -65,14 +85,9 @@ double estimate_noise(io::InputSet& inputs, const tiling::Survey& survey, Progre
   NoiseEstimate estimate;
   for (const auto& [cell, points] : cells) {
     if (points.size() > kMostCellPoints) continue;
-    LatticeBox box;
-    for (int axis = 0; axis < 3; ++axis) {
-      box.min[axis] = std::int64_t{cell[axis]} << shift;
-      box.max[axis] = box.min[axis] + (std::int64_t{1} << shift);
-    }
-    estimate.add(points, box);
+    estimate.add(points, grid.box_of(cell));
   }
-  return estimate.noise_over_spacing();
+  return {estimate.noise() * survey.lattice.step, estimate.least_spacing() * survey.lattice.step};
 }
 
 }  // namespace arris::pipeline

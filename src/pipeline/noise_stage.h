@@ -1,5 +1,5 @@
 #pragma once
-/// @file Noise of a scan against its spacing, from some small parts of it.
+/// @file Noise of a scan, from some small parts of it.
 
 #include "core/cancel.h"
 #include "core/progress.h"
@@ -8,11 +8,17 @@
 
 namespace arris::pipeline {
 
-/// Reads the inputs once and keeps the points of some absolute cells, drawn by a hash of their place: about
-/// kNoiseSample points, so that nothing depends on tiles, budget or order. @return features/segment/noise_estimate.h.
-double estimate_noise(io::InputSet& inputs, const tiling::Survey& survey, ProgressSink& progress,
-                      const CancelToken& cancel);
+/// In data units; features/segment/noise_estimate.h has what they are.
+struct ScanNoise {
+  double noise = 0.0;
+  double least_spacing = 0.0;
+};
 
-constexpr double kNoiseSample = 100'000.0;
+/// Reads the inputs once and keeps the points of some absolute cells, drawn by a hash of their place: about
+/// kNoiseSample points, so that nothing depends on tiles, budget or order.
+ScanNoise estimate_noise(io::InputSet& inputs, const tiling::Survey& survey, ProgressSink& progress,
+                         const CancelToken& cancel);
+
+constexpr double kNoiseSample = 200'000.0;
 
 }  // namespace arris::pipeline

@@ -36,7 +36,6 @@ struct SegmentReport : TiledReport {
   std::optional<double> min_height;
   std::vector<IntensityRange> intensities;  ///< Per input; empty if they played no part.
   SegmentContourParameters shape;
-  std::optional<double> noise_over_spacing;  ///< Where the number of neighbours was chosen by it.
   std::uint64_t segments = 0;
   std::uint64_t boundary = 0, fold = 0;  ///< Points, if asked for.
   std::uint64_t labelled = 0;            ///< Points in a segment.

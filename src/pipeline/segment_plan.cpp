@@ -68,13 +68,13 @@ IntensityTable choose_points(io::InputSet& inputs, const SegmentRequest& request
   return intensities;
 }
 
-/// The default number of neighbours follows the noise, unless as published.
-void choose_neighbours(io::InputSet& inputs, const tiling::Survey& survey, SegmentReport& report, Stopwatch& watch,
+/// Unless given, the number of neighbours follows the noise.
+void choose_neighbours(io::InputSet& inputs, const tiling::Survey& survey, SegmentParameters& p, Stopwatch& watch,
                        ProgressSink& progress, const CancelToken& cancel) {
-  SegmentParameters& p = report.parameters;
-  if (p.neighbours || p.radius > 0.0 || p.published) return;
-  report.noise_over_spacing = estimate_noise(inputs, survey, progress, cancel);
-  p.neighbours = neighbours_for(*report.noise_over_spacing);
+  if (!p.adaptive()) return;
+  const ScanNoise found = estimate_noise(inputs, survey, progress, cancel);
+  p.noise = found.noise;
+  if (found.least_spacing > 0.0) p.most_by_noise = neighbours_for(found.noise / found.least_spacing);
   watch.lap("noise");
 }
 
@@ -93,7 +93,7 @@ SegmentPlan plan_segment_job(io::InputSet& inputs, const SegmentRequest& request
   if (report.parameters.max_radius == 0.0)
     report.parameters.max_radius = resolve_max_radius(survey, 0.0, report.parameters.radius);
   watch.lap("survey");
-  choose_neighbours(inputs, survey, report, watch, progress, cancel);
+  choose_neighbours(inputs, survey, report.parameters, watch, progress, cancel);
   plan.job = plan_job(std::move(survey), request, report.parameters, kept_bytes(inputs.points()), progress);
   describe_tiles(plan.job, report);
   return plan;

@@ -9,7 +9,11 @@ nlohmann::ordered_json segment_json(const SegmentParameters& p) {
   if (p.radius > 0.0) {
     json["radius"] = p.radius;
   } else {
-    json["neighbours"] = p.nearest();
+    json["neighbours"] = p.neighbours.value_or(kFewestNeighbours);
+  }
+  if (p.adaptive()) {
+    json["most_neighbours"] = p.most_by_noise;
+    json["noise"] = p.noise;
   }
   json["max_radius"] = p.max_radius;
   json["inlier_distance"] = p.inlier_distance;
@@ -37,8 +41,6 @@ nlohmann::ordered_json to_json(const SegmentReport& r) {
   json["points"] = {{"in", r.points_in},         {"out", r.points_out},    {"dropped", dropped_json(r)},
                     {"labelled", r.labelled},    {"isolated", r.isolated}, {"frontier", r.frontier},
                     {"reassigned", r.reassigned}};
-  json["noise_over_spacing"] =
-      r.noise_over_spacing ? nlohmann::ordered_json(*r.noise_over_spacing) : nlohmann::ordered_json();
   json["segments"] = r.segments;
   json["contour_parameters"] = {{"alpha_factor", r.shape.alpha_factor},
                                 {"fold_angle_deg", r.shape.fold_angle_deg},

@@ -1,4 +1,4 @@
-// Noise over spacing from a sample, and the neighbours that follow from it.
+// Noise and spacing from a sample.
 
 #include "features/segment/noise_estimate.h"
 
@@ -34,7 +34,8 @@ TEST(NoiseEstimate, NoisyPlanes_AreToldToAQuarter) {
   for (const double noise : {0.05, 0.1, 0.2, 0.3}) {
     NoiseEstimate estimate;
     for (int cell = 0; cell < 20; ++cell) estimate.add(noisy_plane(noise, 200.0, 4800, random), cube(4800));
-    EXPECT_NEAR(estimate.noise_over_spacing(), noise, 0.25 * noise);
+    EXPECT_NEAR(estimate.noise() / 200.0, noise, 0.25 * noise);
+    EXPECT_NEAR(estimate.least_spacing() / 200.0, 0.65, 0.15);
   }
 }
 
@@ -42,7 +43,7 @@ TEST(NoiseEstimate, NoNoise_IsNearlyZero) {
   std::mt19937_64 random(5);
   NoiseEstimate estimate;
   estimate.add(noisy_plane(0.0, 200.0, 9600, random), cube(9600));
-  EXPECT_LT(estimate.noise_over_spacing(), 0.005);
+  EXPECT_LT(estimate.noise() / 200.0, 0.005);
 }
 
 TEST(NoiseEstimate, FewCoincidentOrCollinearPoints_SayNothing) {
@@ -53,7 +54,8 @@ TEST(NoiseEstimate, FewCoincidentOrCollinearPoints_SayNothing) {
   std::vector<LatticePoint> line;
   for (std::int32_t i = 0; i < 400; ++i) line.push_back({i, 200, 200});
   estimate.add(line, cube(400));
-  EXPECT_EQ(estimate.noise_over_spacing(), 0.0);
+  EXPECT_EQ(estimate.noise(), 0.0);
+  EXPECT_EQ(estimate.least_spacing(), 0.0);
 }
 
 RC_GTEST_PROP(NoiseEstimate, OrderAndDuplicatesDoNotMatter, ()) {
@@ -64,15 +66,19 @@ RC_GTEST_PROP(NoiseEstimate, OrderAndDuplicatesDoNotMatter, ()) {
   points.insert(points.end(), points.begin(), points.begin() + 50);
   std::shuffle(points.begin(), points.end(), random);
   other.add(points, cube(4800));
-  RC_ASSERT(one.noise_over_spacing() == other.noise_over_spacing());
+  RC_ASSERT(one.noise() == other.noise());
+  RC_ASSERT(one.least_spacing() == other.least_spacing());
 }
 
-TEST(NeighboursFor, FollowTheNoiseBetween8And32) {
-  EXPECT_EQ(neighbours_for(0.0), 8U);
-  EXPECT_EQ(neighbours_for(0.11), 8U);
-  EXPECT_EQ(neighbours_for(0.22), 16U);
-  EXPECT_EQ(neighbours_for(0.5), 32U);
-  EXPECT_EQ(neighbours_for(1e300), 32U);
+// A sparse half without noise, as planes far from a scanner are, and a dense one.
+TEST(NoiseEstimate, DensestQuarter_TellsTheNoise) {
+  std::mt19937_64 random(6);
+  NoiseEstimate estimate;
+  for (int cell = 0; cell < 20; ++cell) {
+    estimate.add(noisy_plane(0.0, 400.0, 9600, random), cube(9600));
+    estimate.add(noisy_plane(0.3, 100.0, 4800, random), cube(4800));
+  }
+  EXPECT_NEAR(estimate.noise(), 30.0, 8.0);
 }
 
 }  // namespace

@@ -56,6 +56,11 @@ Cloud any_cloud(std::size_t points) {
   for (const auto& [id, entry] : cloud.tile.duplicates) cloud.end_id = std::max(cloud.end_id, id + 1);
   cloud.parameters.max_radius = 0.001 * extent * *rc::gen::element(0.05, 0.3, 2.0);
   cloud.parameters.neighbours = static_cast<std::size_t>(any(3, 14));
+  if (any(0, 2) == 0) {
+    cloud.parameters.neighbours.reset();
+    cloud.parameters.noise = 0.001 * extent * *rc::gen::element(0.003, 0.01, 0.03);
+    cloud.parameters.most_by_noise = *rc::gen::elementOf(kNeighbourLevels);
+  }
   cloud.parameters.angle_deg = *rc::gen::element(3.0, 7.2, 25.0);
   cloud.parameters.curvature = *rc::gen::element(0.2, 0.02);
   cloud.parameters.min_points = static_cast<std::uint32_t>(any(1, 25));

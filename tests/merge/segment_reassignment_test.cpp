@@ -103,7 +103,8 @@ class Gable {
     parameters.published = published;
     return reassign({parameters, 0.001, folder_}, frontier, duplicates, labels, moments, planes, {});
   }
-  std::int32_t lift_steps = 0;  ///< Points of the column beside the ridge stand up by this.
+  std::int32_t lift_steps = 0;  ///< Points of the column beside the ridge stand up by this, one in lift_every.
+  int lift_every = 2;
 
   SegmentFrontier frontier;
   DuplicatePoints duplicates;
@@ -112,7 +113,7 @@ class Gable {
   std::vector<SegmentPlane> planes;
 
  private:
-  std::int32_t lift(int column, int row) const { return column == 1 && row % 2 == 0 ? lift_steps : 0; }
+  std::int32_t lift(int column, int row) const { return column == 1 && row % lift_every == 0 ? lift_steps : 0; }
   std::filesystem::path folder_;
 };
 
@@ -144,13 +145,26 @@ TEST(Reassignment, PointsOfTheWrongSegment_ComeBackUnlessAsPublished) {
 }
 
 // Noise that lifts a point over the ridge brings it nearer to the other slope's plane, but not to that slope.
-TEST(Reassignment, NoiseAboveARidge_DoesNotMovePoints) {
+TEST(Reassignment, NoiseAboveARidge_DoesNotMovePointsToTheOtherSlope) {
   const test::TempFolder folder;
   Gable gable(folder.path());
   gable.lift_steps = 9;
   gable.build([](int c, int) { return c <= 0 ? 1U : 2U; });
   gable.sweep(false);
-  for (int r = 0; r < Gable::kLength; ++r) EXPECT_EQ(gable.labels[gable.id(1, r)], 2U) << r;
+  for (int r = 0; r < Gable::kLength; ++r) EXPECT_NE(gable.labels[gable.id(1, r)], 1U) << r;
+}
+
+TEST(Reassignment, PointsFarOffTheirFlatSegment_LeaveIt) {
+  for (const bool published : {true, false}) {
+    const test::TempFolder folder;
+    Gable gable(folder.path());
+    gable.lift_steps = 9;
+    gable.lift_every = 6;
+    gable.build([](int c, int) { return c <= 0 ? 1U : 2U; });
+    gable.sweep(published);
+    for (int r = 0; r < Gable::kLength; ++r)
+      EXPECT_EQ(gable.labels[gable.id(1, r)], r % 6 == 0 && !published ? 0U : 2U) << r;
+  }
 }
 
 TEST(Reassignment, PointsFarFromEveryPlane_StayWithoutSegment) {

@@ -12,15 +12,16 @@ namespace {
 
 /// What the first quartile of root mean squared residuals of planes through 13 points is of the noise.
 constexpr double kQuartileShare = 0.72;
-constexpr double kNoiseOfEight = 0.11;
-constexpr std::size_t kLeast = 8, kMost = 32;
 /// Planes of neighbourhoods that are nearly lines say nothing of noise.
 constexpr double kLeastWidth = 0.01;
 
-double noise_of(const PlaneBatch& planes, std::size_t lane) {
-  const double w = planes.width[lane];
-  const double k = static_cast<double>(kNoiseNeighbours + 1);
-  return std::sqrt(planes.variation[lane] * (1.0 + w) / std::sqrt(w) * k / (4.0 * kPi));
+/// The value that a share of them is below. Reorders them.
+template <class Value, class Of>
+double quantile(std::vector<Value>& values, double share, Of&& of) {
+  if (values.empty()) return 0.0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), at, values.end(), [&](const Value& a, const Value& b) { return of(a) < of(b); });
+  return of(*at);
 }
 
 }  // namespace
@@ -38,11 +39,18 @@ void NoiseEstimate::add(std::span<const LatticePoint> points, const LatticeBox& 
   NeighbourhoodBatch batch;
   batch.neighbours = kNoiseNeighbours;
   batch.mean_distance.fill(1.0);
+  constexpr double kPoints = kNoiseNeighbours + 1;
+  NeighbourhoodBatch::Row variance{};  // l0 + l1 + l2.
   const auto fit = [&] {
     PlaneBatch planes;
     fit_plain_planes(batch, planes);
-    for (std::size_t lane = 0; lane < batch.lanes; ++lane)
-      if (planes.width[lane] > kLeastWidth) noise_.push_back(noise_of(planes, lane));
+    for (std::size_t lane = 0; lane < batch.lanes; ++lane) {
+      const double width = planes.width[lane];
+      if (!(width > kLeastWidth)) continue;
+      const double of_noise = planes.variation[lane] * variance[lane];
+      const double across = (variance[lane] - of_noise) * std::sqrt(width) / (1.0 + width);
+      samples_.push_back({std::sqrt(4.0 * kPi * across / kPoints), std::sqrt(of_noise)});
+    }
     batch.lanes = 0;
   };
   std::vector<std::uint32_t> slots(tree.size());
@@ -51,27 +59,29 @@ void NoiseEstimate::add(std::span<const LatticePoint> points, const LatticeBox& 
     const double reach = std::sqrt(static_cast<double>(found.last_d2)) * (1.0 + 1e-12);
     if (found.count < kNoiseNeighbours || !(reach < static_cast<double>(box.depth(tree.position(slot))))) return;
     const std::size_t lane = batch.lanes++;
+    double x = 0.0, y = 0.0, z = 0.0, squares = 0.0;
     for (std::size_t i = 0; i < found.count; ++i) {
-      batch.x[i][lane] = found.dx[i];
-      batch.y[i][lane] = found.dy[i];
-      batch.z[i][lane] = found.dz[i];
+      x += batch.x[i][lane] = found.dx[i];
+      y += batch.y[i][lane] = found.dy[i];
+      z += batch.z[i][lane] = found.dz[i];
+      squares += found.d2[i];
     }
+    variance[lane] = (squares - (x * x + y * y + z * z) / kPoints) / kPoints;
     if (batch.lanes == kBatchLanes) fit();
   });
   fit();
 }
 
-double NoiseEstimate::noise_over_spacing() const {
-  if (noise_.empty()) return 0.0;
-  std::vector<double> sorted = noise_;
-  const auto quartile = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 4);
-  std::nth_element(sorted.begin(), quartile, sorted.end());
-  return *quartile / kQuartileShare;
+double NoiseEstimate::noise() const {
+  std::vector<Sample> samples = samples_;
+  const double dense = quantile(samples, 0.25, [](const Sample& s) { return s.spacing; });
+  std::erase_if(samples, [&](const Sample& s) { return s.spacing > dense; });
+  return quantile(samples, 0.25, [](const Sample& s) { return s.noise; }) / kQuartileShare;
 }
 
-std::size_t neighbours_for(double noise_over_spacing) {
-  const double wanted = std::ceil(static_cast<double>(kLeast) * noise_over_spacing / kNoiseOfEight);
-  return wanted < static_cast<double>(kMost) ? std::max(kLeast, static_cast<std::size_t>(wanted)) : kMost;
+double NoiseEstimate::least_spacing() const {
+  std::vector<Sample> samples = samples_;
+  return quantile(samples, 0.01, [](const Sample& s) { return s.spacing; });
 }
 
 }  // namespace arris

@@ -1,5 +1,5 @@
 #pragma once
-/// @file How noisy a scan is against its spacing, from a sample of it, and how many neighbours a normal needs then.
+/// @file How noisy a scan is, and how dense where it is dense, from a sample of it.
 
 #include <cstddef>
 #include <span>
@@ -9,24 +9,26 @@
 
 namespace arris {
 
-/// Noise over spacing at sampled points: nu^2 = l0 / s^2 of the plain plane through kNoiseNeighbours neighbours, with
-/// s^2 = 4 pi sqrt(l1 l2) / k, the area that each of k points of an ellipse has. Not thread-safe.
+/// At sampled points: noise l0 of the plain plane through kNoiseNeighbours neighbours, and spacing s^2 = 4 pi sqrt(l1
+/// l2) / k, the area that each of k points of an ellipse has. Lengths in steps. Not thread-safe.
 class NoiseEstimate {
  public:
   /// All points of the scan in one box. Points whose neighbours may lie outside of it are not looked at. O(n log n).
   void add(std::span<const LatticePoint> points, const LatticeBox& box);
 
-  /// The first quartile: what the flat quarter of the scan has, edges and vegetation aside. 0 without any.
-  double noise_over_spacing() const;
+  /// From the first quartile (edges and vegetation aside) of the densest quarter: there noise counts, and there it is
+  /// most of what the planes leave. 0 without any.
+  double noise() const;
+  /// One in a hundred is smaller. 0 without any.
+  double least_spacing() const;
 
  private:
-  std::vector<double> noise_;
+  struct Sample {
+    double spacing, noise;
+  };
+  std::vector<Sample> samples_;
 };
 
 constexpr std::size_t kNoiseNeighbours = 12;
-
-/// The error of a normal goes with nu / k: so many neighbours that it stays what it is for 8 of them at nu = 0.11, where
-/// planes still hold together; 8 to 32.
-std::size_t neighbours_for(double noise_over_spacing);
 
 }  // namespace arris

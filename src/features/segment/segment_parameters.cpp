@@ -26,12 +26,18 @@ bool is_length(double value) {
 }  // namespace
 
 std::size_t SegmentParameters::most_neighbours() const {
-  return radius > 0.0 ? kMostNeighbours : nearest();
+  if (radius > 0.0) return kMostNeighbours;
+  return adaptive() ? most_by_noise : neighbours.value_or(kFewestNeighbours);
+}
+
+NeighbourRule neighbour_rule(const SegmentParameters& parameters, double step) {
+  if (!parameters.adaptive()) return NeighbourRule(parameters.most_neighbours());
+  return {parameters.noise / step, parameters.most_by_noise};
 }
 
 void validate(const SegmentParameters& p) {
-  require(p.nearest() >= 3 && p.nearest() <= kMostNeighbours, "--neighbours", static_cast<double>(p.nearest()),
-          "between 3 and 64");
+  const std::size_t k = p.neighbours.value_or(kFewestNeighbours);
+  require(k >= 3 && k <= kMostNeighbours, "--neighbours", static_cast<double>(k), "between 3 and 64");
   require(is_length(p.radius), "--radius", p.radius, "finite and not negative");
   require(is_length(p.max_radius), "--max-radius", p.max_radius, "finite and not negative");
   require(is_length(p.inlier_distance), "--inlier-distance", p.inlier_distance, "finite and not negative");
@@ -49,7 +55,9 @@ double segment_halo(const SegmentParameters& parameters, double spacing) {
   // On a surface k neighbours fill a disc of radius sqrt(k / pi) spacings. A point, its neighbours, and theirs where
   // they must agree.
   const double rings = parameters.published ? 2.0 : 3.0;
-  const double k = static_cast<double>(parameters.nearest());
+  const std::size_t by_noise = spacing > 0.0 ? neighbours_for(parameters.noise / spacing) : kFewestNeighbours;
+  const std::size_t most = parameters.most_neighbours();
+  const double k = static_cast<double>(parameters.adaptive() ? std::min(by_noise, most) : most);
   const double ring = parameters.radius > 0.0 ? parameters.radius : kHaloMargin * std::sqrt((k + 1.0) / kPi) * spacing;
   return std::min(rings * ring, rings * parameters.reach());
 }

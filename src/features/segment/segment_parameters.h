@@ -5,13 +5,18 @@
 #include <cstdint>
 #include <optional>
 
+#include "features/segment/neighbour_rule.h"
+
 namespace arris {
 
 /// Lengths in data units. Defaults are the paper's where it gives a value.
 struct SegmentParameters {
-  /// k, 3 to kMostNeighbours; without: 8, or, not as published, what the noise asks for (noise_estimate.h; resolved by
-  /// the pipeline).
+  /// k, 3 to kMostNeighbours; without: 8 as published, else by the rule of noise below.
   std::optional<std::size_t> neighbours;
+  /// Of the scan, in data units, and the most neighbours that it gives a point (neighbour_rule.h). Resolved by the
+  /// pipeline; 0: 8 neighbours everywhere.
+  double noise = 0.0;
+  std::size_t most_by_noise = kFewestNeighbours;
   /// > 0: the neighbours are all points this near, but no more than kMostNeighbours, instead of the k nearest.
   double radius = 0.0;
   double max_radius = 0.0;  ///< R_max: no neighbour is farther, > 0 when the method runs (resolved by the pipeline).
@@ -35,7 +40,8 @@ struct SegmentParameters {
 
   /// Searches stop here: radius if given, else R_max.
   double reach() const { return radius > 0.0 && radius < max_radius ? radius : max_radius; }
-  std::size_t nearest() const { return neighbours.value_or(8); }
+  /// The number follows the noise.
+  bool adaptive() const { return !neighbours && radius <= 0.0 && !published; }
   std::size_t most_neighbours() const;
   double least_agreement() const { return published ? 0.0 : agreement.value_or(0.3); }
   int least_intensity_step() const { return intensity_step.value_or(published ? 10 : 20); }
@@ -47,6 +53,9 @@ struct SegmentParameters {
 
 /// Throws ConfigError, naming the option, if a value is out of range.
 void validate(const SegmentParameters& parameters);
+
+/// @param step  of the lattice.
+NeighbourRule neighbour_rule(const SegmentParameters& parameters, double step);
 
 /// A halo, in data units, that proves nearly all queries where the spacing is at most `spacing`.
 double segment_halo(const SegmentParameters& parameters, double spacing);

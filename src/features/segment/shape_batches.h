@@ -21,20 +21,20 @@ class ShapeBatches {
   explicit ShapeBatches(const PlaneWeights& weights) : weights_(weights) {}
 
   /// Calls use(slot, shape, has normal) once for every slot, now or later, at the latest in flush().
-  /// @param found  3 to kMostNeighbours neighbours.
+  /// @param count  of the nearest of those found, 3 to kMostNeighbours.
   template <class Use>
-  void add(std::uint32_t slot, const Neighbours& found, Use&& use) {
-    Size& size = size_of(found.count);
+  void add(std::uint32_t slot, const Neighbours& found, std::size_t count, Use&& use) {
+    Size& size = size_of(count);
     const std::size_t lane = size.plain.batch.lanes++;
     size.plain.slot[lane] = slot;
     double sum = 0.0;
-    for (std::size_t i = 0; i < found.count; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       size.plain.batch.x[i][lane] = found.dx[i];
       size.plain.batch.y[i][lane] = found.dy[i];
       size.plain.batch.z[i][lane] = found.dz[i];
       sum += std::sqrt(found.d2[i]);
     }
-    size.plain.batch.mean_distance[lane] = sum / static_cast<double>(found.count);
+    size.plain.batch.mean_distance[lane] = sum / static_cast<double>(count);
     if (lane + 1 == kBatchLanes) fit_plain(size, use);
   }
 

@@ -20,6 +20,10 @@ double SupportProof::distance(std::uint32_t a, std::uint32_t b) const {
   return std::sqrt(static_cast<double>(squared_distance(tree_.position(a), tree_.position(b)))) * kRound;
 }
 
+double SupportProof::farther(std::uint32_t slot, const LatticeBox& covered) const {
+  return kFarther * static_cast<double>(covered.depth(tree_.position(slot)));
+}
+
 /// Those that are bad, or have a neighbour that is.
 std::vector<std::uint8_t> SupportProof::with_bad_neighbours(const std::vector<std::uint8_t>& bad) const {
   std::vector<std::uint8_t> wider = bad;
@@ -54,7 +58,7 @@ double SupportProof::reach(std::uint32_t slot, const LatticeBox& covered) const 
   const double own = points_.reach_of(slot);
   if (!inside(slot, own, covered)) {
     if (points_.full(slot)) return own;
-    return std::min(most, kFarther * static_cast<double>(covered.depth(tree_.position(slot))));
+    return std::min(most, farther(slot, covered));
   }
   struct Ball {
     std::uint32_t slot;
@@ -68,10 +72,15 @@ double SupportProof::reach(std::uint32_t slot, const LatticeBox& covered) const 
     for (const Ball& ball : ring) {
       for (const std::uint32_t neighbour : points_.neighbours(ball.slot)) {
         const double bound = std::min(most, distance(ball.slot, neighbour) + ball.radius);
-        const double radius = std::min(points_.reach_of(neighbour), bound);
-        whole = whole && inside(neighbour, radius, covered);
-        reach = std::max(reach, distance(slot, neighbour) + radius);
+        const bool bounded = points_.wanted(neighbour) <= points_.neighbours(ball.slot).size();
+        const double radius = bounded ? std::min(points_.reach_of(neighbour), bound) : points_.reach_of(neighbour);
         next.push_back({neighbour, radius});
+        double look = radius;
+        if (!inside(neighbour, radius, covered)) {
+          whole = false;
+          if (!points_.full(neighbour)) look = std::min(radius, std::max(bound, farther(neighbour, covered)));
+        }
+        reach = std::max(reach, distance(slot, neighbour) + look);
       }
     }
     if (!whole) return reach;

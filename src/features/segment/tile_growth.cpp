@@ -278,10 +278,10 @@ TileGrowth grow_tile(const TilePoints& tile, std::span<const std::uint8_t> inten
 }
 
 double growth_bytes_per_point(const SegmentParameters& parameters) {
-  // Tree 27, shapes, counts and states 18, flags and intensities 9, sets and components 8, members 16; neighbours; and
+  // Tree 27, shapes, counts and states 19, flags and intensities 9, sets and components 8, members 16; neighbours; and
   // frontier records where half of the points are frontier.
   const double k = static_cast<double>(parameters.most_neighbours());
-  return 27.0 + 18.0 + 9.0 + 8.0 + 16.0 + 4.0 * k + 0.5 * (16.0 + 4.0 * k);
+  return 27.0 + 19.0 + 9.0 + 8.0 + 16.0 + 4.0 * k + 0.5 * (16.0 + 4.0 * k);
 }
 const double kGrowthBytesPerThread = 3.0 * 1024 * 1024;
 

@@ -1,6 +1,8 @@
 #include "features/segment/tile_neighbourhoods.h"
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.h"
 #include "features/neighbourhood/neighbour_search.h"
@@ -17,27 +19,47 @@ constexpr std::size_t kLeastNeighbours = 3;
 /// One per chunk of buckets; writes the rows of its own slots only.
 class TileNeighbourhoods::Runner {
  public:
-  explicit Runner(TileNeighbourhoods& all)
-      : all_(all),
-        search_(all.tree_, {all.stride_, all.reach_steps_,
-                            static_cast<std::uint64_t>(all.reach_steps_ * all.reach_steps_), Arithmetic::kFloat}),
-        batches_(all.weights_) {}
+  explicit Runner(TileNeighbourhoods& all) : all_(all), expected_(all.rule_.least()), batches_(all.weights_) {}
 
+  /// What one group wanted at most is looked for around the next: few queries then need a second search, and what is
+  /// found beyond what the rule wants is cut off.
   void run(std::span<const std::uint32_t> slots) {
-    search_.run(slots, [&](std::uint32_t slot, const Neighbours& found) { take(slot, found); });
+    const std::size_t first = std::exchange(expected_, all_.rule_.least());
+    for (auto& more : more_) more.clear();
+    search_for(first, slots);
+    for (std::size_t k = first + 1; k <= all_.rule_.most(); ++k) search_for(k, more_[k]);
   }
   void finish() {
     batches_.flush([&](auto&&... arguments) { put(arguments...); });
   }
 
  private:
-  void take(std::uint32_t slot, const Neighbours& found) {
-    all_.counts_[slot] = static_cast<std::uint8_t>(found.count);
-    std::copy_n(found.slot.begin(), found.count, all_.slots_.get() + slot * all_.stride_);
-    if (found.count < kLeastNeighbours) {
+  void search_for(std::size_t k, std::span<const std::uint32_t> slots) {
+    if (slots.empty()) return;
+    if (!searches_[k]) {
+      const auto most_d2 = static_cast<std::uint64_t>(all_.reach_steps_ * all_.reach_steps_);
+      searches_[k] = std::make_unique<NeighbourSearch>(all_.tree_,
+                                                       SearchLimits{k, all_.reach_steps_, most_d2, Arithmetic::kFloat});
+    }
+    searches_[k]->run(slots, [&](std::uint32_t slot, const Neighbours& found) {
+      const std::size_t least = all_.rule_.least();
+      const std::size_t wanted = found.count < least ? all_.rule_.most() : all_.rule_.wanted(found);
+      expected_ = std::max(expected_, std::min(wanted, k));
+      all_.wanted_[slot] = static_cast<std::uint8_t>(wanted);
+      if (wanted > k && found.count == k) {
+        more_[wanted].push_back(slot);
+      } else {
+        take(slot, found, std::min(found.count, wanted));
+      }
+    });
+  }
+  void take(std::uint32_t slot, const Neighbours& found, std::size_t count) {
+    all_.counts_[slot] = static_cast<std::uint8_t>(count);
+    std::copy_n(found.slot.begin(), count, all_.slots_.get() + slot * all_.stride_);
+    if (count < kLeastNeighbours) {
       all_.states_[slot] = ShapeState::kIsolated;
     } else {
-      batches_.add(slot, found, [&](auto&&... arguments) { put(arguments...); });
+      batches_.add(slot, found, count, [&](auto&&... arguments) { put(arguments...); });
     }
   }
   void put(std::uint32_t slot, const PointShape& shape, bool has_normal) {
@@ -46,18 +68,23 @@ class TileNeighbourhoods::Runner {
   }
 
   TileNeighbourhoods& all_;
-  NeighbourSearch search_;
+  /// By the number of neighbours that they look for.
+  std::array<std::unique_ptr<NeighbourSearch>, kMostNeighbours + 1> searches_;
+  std::array<std::vector<std::uint32_t>, kMostNeighbours + 1> more_;
+  std::size_t expected_;
   ShapeBatches batches_;
 };
 
 TileNeighbourhoods::TileNeighbourhoods(const PointTree& tree, const Lattice& lattice,
                                        const SegmentParameters& parameters)
     : tree_(tree),
-      stride_(parameters.most_neighbours()),
+      rule_(neighbour_rule(parameters, lattice.step)),
+      stride_(rule_.most()),
       reach_steps_(parameters.reach() / lattice.step),
       weights_{parameters.inlier_distance / lattice.step, parameters.published},
       slots_(std::make_unique_for_overwrite<std::uint32_t[]>(tree.size() * stride_)),
       counts_(tree.size()),
+      wanted_(tree.size()),
       shapes_(tree.size()),
       states_(tree.size(), ShapeState::kUnasked) {}
 

@@ -25,7 +25,7 @@ enum class ShapeState : std::uint8_t {
   kIsolated,  ///< Has none: fewer than 3 neighbours within reach, or all of them on a line with it.
 };
 
-/// Points go by their slots in the tree. Memory: 4 bytes per neighbour and 22 per slot. Bits of what is found depend on
+/// Points go by their slots in the tree. Memory: 4 bytes per neighbour and 23 per slot. Bits of what is found depend on
 /// the points within twice the reach and the parameters only. compute() runs in parallel; reading is thread-safe.
 class TileNeighbourhoods {
  public:
@@ -42,7 +42,9 @@ class TileNeighbourhoods {
   std::span<const std::uint32_t> neighbours(std::uint32_t slot) const {
     return {slots_.get() + std::size_t{slot} * stride_, counts_[slot]};
   }
-  bool full(std::uint32_t slot) const { return counts_[slot] == stride_; }  ///< As many as asked for.
+  /// By the rule and what is in sight; at most that if it is hardly anything. More in sight may make it more.
+  std::size_t wanted(std::uint32_t slot) const { return wanted_[slot]; }
+  bool full(std::uint32_t slot) const { return counts_[slot] == wanted(slot); }  ///< As many as wanted.
   /// Distance in steps within which the neighbours must lie, from those found; max_reach_steps() if they are too few.
   double reach_of(std::uint32_t slot) const;
   double max_reach_steps() const { return reach_steps_; }
@@ -51,11 +53,12 @@ class TileNeighbourhoods {
   class Runner;
 
   const PointTree& tree_;
+  NeighbourRule rule_;
   std::size_t stride_;
   double reach_steps_;
   PlaneWeights weights_;
   std::unique_ptr<std::uint32_t[]> slots_;  ///< Written where asked for only.
-  std::vector<std::uint8_t> counts_;
+  std::vector<std::uint8_t> counts_, wanted_;
   std::vector<PointShape> shapes_;
   std::vector<ShapeState> states_;
 };
