@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "features/segment/neighbour_rule.h"
 #include "features/segment/noise_estimate.h"
 #include "features/segment/tile_growth.h"
 #include "merge/point_labels.h"
