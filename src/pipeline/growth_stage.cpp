@@ -19,9 +19,10 @@ GrowthResult grow_segments(io::InputSet& inputs, const GrowthSetup& setup, merge
                                     std::optional<std::span<const PlacedQuery>> queries) -> TileOutcome {
     std::vector<std::uint8_t> intensities(setup.intensities.empty() ? 0 : points.ids.size());
     for (std::size_t i = 0; i < intensities.size(); ++i) intensities[i] = setup.intensities[points.ids[i]];
-    TileGrowth grown = grow_tile(points, intensities, job.survey.lattice, setup.parameters, queries);
+    TileGrowth grown = grow_tile(
+        points, intensities, job.survey.lattice, setup.parameters,
+        [&](std::span<const std::uint32_t> records) { frontier.append(records); }, queries);
     growth.add(grown);
-    frontier.append(grown.frontier);
     if (!queries) duplicates.append(points);
     return {std::move(grown.unproven), grown.isolated};
   };

@@ -68,7 +68,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   }
   plan.tiles_bytes = usable - plan.fixed_bytes;
   plan.tile_workers = request.threads;
-  while (plan.tile_workers > 1 && plan.tile_bytes(kLeastTilePoints) * plan.tile_workers > plan.tiles_bytes)
+  while (plan.tile_workers > 1 && plan.tile_bytes(kFairTilePoints) * plan.tile_workers > plan.tiles_bytes)
     --plan.tile_workers;
 
   const std::uint64_t share = plan.tiles_bytes / plan.tile_workers;

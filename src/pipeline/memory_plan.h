@@ -42,5 +42,7 @@ MemoryPlan plan_memory(const MemoryRequest& request);
 std::uint64_t least_budget_bytes(std::uint64_t points, const MemoryRequest& request);
 
 constexpr std::uint64_t kLeastTilePoints = 50'000;
+/// Smaller tiles are mostly halo: rather fewer in flight, each analysed by more threads.
+constexpr std::uint64_t kFairTilePoints = 400'000;
 
 }  // namespace arris::pipeline

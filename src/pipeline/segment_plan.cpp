@@ -33,8 +33,8 @@ TileJob plan_job(tiling::Survey survey, const SegmentRequest& request, SegmentPa
   TileNeeds needs;
   needs.halo = [&](double spacing) { return segment_halo(parameters, spacing); };
   needs.max_radius = (parameters.published ? 2.0 : 3.0) * parameters.reach();
-  // Half of the points on the frontier is more than real scans have.
-  needs.result_bytes_per_point = 0.5 * 4.0 * static_cast<double>(4 + parameters.most_neighbours());
+  // Scans have 2 to 10 % of their points on the frontier; those without planes more.
+  needs.result_bytes_per_point = 0.06 * 4.0 * static_cast<double>(4 + parameters.most_neighbours());
   plan_tiles_of(job, needs, request, progress);
   return job;
 }

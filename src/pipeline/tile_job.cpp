@@ -2,17 +2,32 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "core/error.h"
 #include "core/text.h"
 #include "pipeline/run_support.h"
+#include "tiling/spool.h"
 
 namespace arris::pipeline {
 namespace {
 
-/// Per stored point: the spool record and its copy in the tile file (both exist while a tile is built).
-constexpr double kSpoolBytesPerPoint = 20.0;
-constexpr double kTileFileBytesPerPoint = 24.0;
-constexpr std::uint64_t kBytesPerTile = 64 * 1024;
+/// Per stored point: its record in the spool or, a little less, in the tile file that takes the spool's place. Both
+/// exist of the few tiles that are being built.
+constexpr double kStoredBytesPerPoint = tiling::kSpoolRecordBytes;
+constexpr std::uint64_t kBytesPerTile = 8 * 1024;
+
+/// The largest tiles at the same time.
+std::uint64_t bytes_in_flight(const TileJob& job) {
+  std::vector<std::uint64_t> points;
+  for (const tiling::PlannedTile& tile : job.tiles.tiles) points.push_back(tile.covered_points);
+  const std::size_t most = std::min(points.size(), static_cast<std::size_t>(job.memory.tile_workers));
+  std::partial_sort(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(most), points.end(), std::greater<>());
+  std::uint64_t bytes = 0;
+  for (std::size_t i = 0; i < most; ++i) bytes += job.memory.tile_bytes(points[i]);
+  return bytes;
+}
 
 }  // namespace
 
@@ -36,10 +51,10 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, const RunRequest& reque
                     grouped(job.tiles.largest_covered_points), human_bytes(largest),
                     human_bytes(least_budget_bytes(job.tiles.largest_covered_points, job.memory_request))));
   }
-  job.predicted_peak_bytes = job.memory.fixed_bytes + largest * static_cast<std::uint64_t>(job.memory.tile_workers);
+  job.predicted_peak_bytes = job.memory.fixed_bytes + bytes_in_flight(job);
   const double stored = static_cast<double>(job.survey.points()) * job.tiles.duplication;
   job.predicted_temp_bytes =
-      static_cast<std::uint64_t>(stored * (kSpoolBytesPerPoint + kTileFileBytesPerPoint) +
+      static_cast<std::uint64_t>(stored * kStoredBytesPerPoint +
                                  static_cast<double>(job.survey.points()) * needs.result_bytes_per_point) +
       job.tiles.tiles.size() * kBytesPerTile + needs.further_temp_bytes;
   check_temp_space(job.predicted_temp_bytes, request, progress);

@@ -24,6 +24,10 @@ using test::any;
 
 const Lattice kMillimetres{0.001, {0.0, 0.0, 0.0}};
 
+struct Grown : TileGrowth {
+  std::vector<std::uint32_t> frontier;  ///< The words of all records.
+};
+
 struct Cloud {
   TilePoints tile;
   SegmentParameters parameters;
@@ -35,8 +39,12 @@ struct Cloud {
     for (const std::uint64_t id : part.ids) values.push_back(static_cast<std::uint8_t>(id % 3 * 8));
     return values;
   }
-  TileGrowth grow(const TilePoints& part, std::optional<std::span<const PlacedQuery>> queries = std::nullopt) const {
-    return grow_tile(part, intensities(part), kMillimetres, parameters, queries);
+  Grown grow(const TilePoints& part, std::optional<std::span<const PlacedQuery>> queries = std::nullopt) const {
+    std::vector<std::uint32_t> frontier;
+    const auto keep = [&](std::span<const std::uint32_t> records) {
+      frontier.insert(frontier.end(), records.begin(), records.end());
+    };
+    return {grow_tile(part, intensities(part), kMillimetres, parameters, keep, queries), std::move(frontier)};
   }
   merge::PointLabels labels(const TileGrowth& growth) const {
     merge::SegmentGrowth all(end_id, parameters.min_points);
@@ -163,7 +171,7 @@ struct AllTiles {
   std::uint64_t isolated = 0;
 };
 
-void add(const TileGrowth& grown, const Cloud& cloud, merge::SegmentGrowth& growth, AllTiles& all) {
+void add(const Grown& grown, const Cloud& cloud, merge::SegmentGrowth& growth, AllTiles& all) {
   growth.add(grown);
   all.isolated += grown.isolated;
   const std::size_t stride = 4 + cloud.parameters.most_neighbours();
@@ -186,14 +194,14 @@ AllTiles in_parts(const Cloud& cloud, std::int64_t halo) {
     LatticeBox core = test::everything();
     (part % 2 == 0 ? core.max[0] : core.min[0]) = cut_x;
     (part / 2 == 0 ? core.max[1] : core.min[1]) = cut_y;
-    const TileGrowth grown = cloud.grow(test::part_of(cloud.tile, core, halo));
+    const Grown grown = cloud.grow(test::part_of(cloud.tile, core, halo));
     add(grown, cloud, growth, all);
     for (UnprovenQuery query : grown.unproven) {
       for (;;) {
         const TilePoints points = test::part_of(cloud.tile, query);
         const auto entry = std::find(points.ids.begin(), points.ids.end(), query.id) - points.ids.begin();
         const PlacedQuery queries[] = {{static_cast<std::uint32_t>(entry), query.reach_steps}};
-        const TileGrowth again = cloud.grow(points, queries);
+        const Grown again = cloud.grow(points, queries);
         add(again, cloud, growth, all);
         if (again.unproven.empty()) break;
         RC_ASSERT(again.unproven[0].reach_steps > query.reach_steps);

@@ -32,14 +32,14 @@ class Grower {
     choose_queries(tile, queries);
   }
 
-  TileGrowth run() {
+  TileGrowth run(const FrontierSink& frontier) {
     compute_rings();
     settle_unproven();
     if (!parameters_.published && !intensities_.empty()) smooth_intensities();
     choose_growing();
     find_links();
     number_components();
-    write_frontier();
+    write_frontier(frontier);
     return std::move(growth_);
   }
 
@@ -239,18 +239,23 @@ class Grower {
     return true;
   }
 
-  void write_frontier() {
+  void write_frontier(const FrontierSink& sink) {
+    constexpr std::size_t kBlockWords = 1 << 16;
     const std::size_t stride = parameters_.most_neighbours();
+    std::vector<std::uint32_t> words;
     for_each_query([&](std::uint32_t slot) {
       if (inside_component(slot)) return;
       const LatticePoint p = tree_.position(slot);
-      auto& words = growth_.frontier;
       words.insert(words.end(), {static_cast<std::uint32_t>(tree_.id(slot)), static_cast<std::uint32_t>(p.x),
                                  static_cast<std::uint32_t>(p.y), static_cast<std::uint32_t>(p.z)});
       const auto neighbours = points_.neighbours(slot);
       for (const std::uint32_t neighbour : neighbours) words.push_back(static_cast<std::uint32_t>(tree_.id(neighbour)));
       words.insert(words.end(), stride - neighbours.size(), TileGrowth::kNoId);
+      if (words.size() < kBlockWords) return;
+      sink(words);
+      words.clear();
     });
+    if (!words.empty()) sink(words);
   }
 
   const SegmentParameters& parameters_;
@@ -272,16 +277,16 @@ class Grower {
 }  // namespace
 
 TileGrowth grow_tile(const TilePoints& tile, std::span<const std::uint8_t> intensities, const Lattice& lattice,
-                     const SegmentParameters& parameters, std::optional<std::span<const PlacedQuery>> queries) {
+                     const SegmentParameters& parameters, const FrontierSink& frontier,
+                     std::optional<std::span<const PlacedQuery>> queries) {
   if (tile.positions.empty()) return {};
-  return Grower(tile, intensities, lattice, parameters, queries).run();
+  return Grower(tile, intensities, lattice, parameters, queries).run(frontier);
 }
 
 double growth_bytes_per_point(const SegmentParameters& parameters) {
-  // Tree 27, shapes, counts and states 19, flags and intensities 9, sets and components 8, members 16; neighbours; and
-  // frontier records where half of the points are frontier.
+  // Tree 27, shapes, counts and states 19, flags and intensities 9, sets and components 8, members 16; neighbours.
   const double k = static_cast<double>(parameters.most_neighbours());
-  return 27.0 + 19.0 + 9.0 + 8.0 + 16.0 + 4.0 * k + 0.5 * (16.0 + 4.0 * k);
+  return 27.0 + 19.0 + 9.0 + 8.0 + 16.0 + 4.0 * k;
 }
 const double kGrowthBytesPerThread = 3.0 * 1024 * 1024;
 

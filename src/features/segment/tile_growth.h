@@ -12,6 +12,7 @@
 /// and (not as published) those of these.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -46,14 +47,16 @@ struct TileGrowth {
   /// Sum over the queries of each component of Member::disc, rounded down and at most 2^32 - 1 each: times pi, about
   /// the component's area.
   std::vector<std::uint64_t> discs;
-  /// Queries that may have a neighbour of another segment or none, (4 + k) words each: id, x, y, z, then the ids of the
-  /// neighbours, filled up with kNoId. Contains all queries that are in no component of least_component() or more.
-  std::vector<std::uint32_t> frontier;
   std::vector<UnprovenQuery> unproven;  ///< Ascending ids; they left no trace in the rest.
   std::uint64_t isolated = 0;           ///< Queries without a normal.
 
   static constexpr std::uint32_t kNoId = 0xffffffffU;  ///< Ids are below.
 };
+
+/// Takes records of queries that may have a neighbour of another segment or none, (4 + k) words each: id, x, y, z, then
+/// the ids of the neighbours, filled up with TileGrowth::kNoId; all queries that are in no component of
+/// least_component() or more are among them. Called several times, by one thread.
+using FrontierSink = std::function<void(std::span<const std::uint32_t> records)>;
 
 /// @param intensities  0 to 255 per entry of tile.positions, or empty.
 /// @param queries      entries, each with the part of space that is covered around it; without, the points of
@@ -62,7 +65,7 @@ struct TileGrowth {
 /// Runs in parallel. The bits of the union of all tiles' results depend on points, intensities and parameters only, but
 /// for the numbers of components.
 TileGrowth grow_tile(const TilePoints& tile, std::span<const std::uint8_t> intensities, const Lattice& lattice,
-                     const SegmentParameters& parameters,
+                     const SegmentParameters& parameters, const FrontierSink& frontier,
                      std::optional<std::span<const PlacedQuery>> queries = std::nullopt);
 
 /// Bytes beyond the tile itself, for predictions.
