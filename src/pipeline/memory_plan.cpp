@@ -24,8 +24,8 @@ constexpr std::uint64_t kSpareBytes = 4 * kMiB;
 /// Kept free: the allocator's fragments and what predictions miss.
 constexpr double kSafety = 0.92;
 
-std::uint64_t fixed_bytes(const MemoryRequest& request, std::uint64_t spool_buffer_bytes) {
-  return request.kept_bytes + resident_bytes() + kPassBytes + spool_buffer_bytes +
+std::uint64_t fixed_bytes(const MemoryRequest& request, std::uint64_t resident, std::uint64_t spool_buffer_bytes) {
+  return request.kept_bytes + resident + kPassBytes + spool_buffer_bytes +
          static_cast<std::uint64_t>(request.threads) * static_cast<std::uint64_t>(request.method.per_thread);
 }
 
@@ -46,7 +46,8 @@ std::uint64_t MemoryPlan::tile_bytes(std::uint64_t points) const {
 }
 
 std::uint64_t least_budget_bytes(std::uint64_t points, const MemoryRequest& request) {
-  const std::uint64_t needed = fixed_bytes(request, kLeastSpoolBytes) + bytes_of_tile(points, request.method);
+  const std::uint64_t needed =
+      fixed_bytes(request, resident_bytes(), kLeastSpoolBytes) + bytes_of_tile(points, request.method);
   return static_cast<std::uint64_t>(static_cast<double>(needed) / kSafety) + kSpareBytes;
 }
 
@@ -55,11 +56,12 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   plan.budget_bytes = request.budget_bytes;
   plan.method = request.method;
   plan.spool_buffer_bytes = spool_buffer_bytes(request.budget_bytes);
-  plan.fixed_bytes = fixed_bytes(request, plan.spool_buffer_bytes);
+  plan.resident_bytes = resident_bytes();
+  plan.fixed_bytes = fixed_bytes(request, plan.resident_bytes, plan.spool_buffer_bytes);
   const auto usable = static_cast<std::uint64_t>(kSafety * static_cast<double>(request.budget_bytes));
   if (usable < plan.fixed_bytes + plan.tile_bytes(kLeastTilePoints)) {  // Short of memory: the least buffer.
     plan.spool_buffer_bytes = kLeastSpoolBytes;
-    plan.fixed_bytes = fixed_bytes(request, plan.spool_buffer_bytes);
+    plan.fixed_bytes = fixed_bytes(request, plan.resident_bytes, plan.spool_buffer_bytes);
   }
   if (usable < plan.fixed_bytes + plan.tile_bytes(kLeastTilePoints)) {
     throw BudgetError(fmt::format("--memory {} is too small: this run needs at least {}",

@@ -23,8 +23,9 @@ struct MemoryRequest {
 /// The division. fixed_bytes + tile_workers tiles of max_tile_points fit into the budget.
 struct MemoryPlan {
   std::uint64_t budget_bytes = 0;
-  std::uint64_t fixed_bytes = 0;  ///< Program, survey, buffers, per-thread scratch.
-  std::uint64_t tiles_bytes = 0;  ///< What is left for tiles in flight.
+  std::uint64_t resident_bytes = 0;  ///< When the plan was made.
+  std::uint64_t fixed_bytes = 0;     ///< Program, survey, buffers, per-thread scratch.
+  std::uint64_t tiles_bytes = 0;     ///< What is left for tiles in flight.
   std::uint64_t spool_buffer_bytes = 0;
   int tile_workers = 1;               ///< Tiles in flight at most.
   std::uint64_t max_tile_points = 0;  ///< Covered points per tile.

@@ -18,15 +18,23 @@ namespace {
 constexpr double kStoredBytesPerPoint = tiling::kSpoolRecordBytes;
 constexpr std::uint64_t kBytesPerTile = 8 * 1024;
 
-/// The largest tiles at the same time.
-std::uint64_t bytes_in_flight(const TileJob& job) {
+/// What is resident at the peak, as against fixed_bytes and tile_bytes(), which bound it: buffers are seldom full, and
+/// tiles in flight are not all at their peak together. Measured (bench/README.md).
+std::uint64_t likely_peak_bytes(const TileJob& job) {
+  constexpr double kOfTile = 0.92;
+  constexpr double kOfFurtherTiles = 0.6;
+  constexpr double kGatherBytes = 100e6;  // Results of a million points, records and buffers while outputs are written.
+  constexpr double kGatherPoints = 1e6;
   std::vector<std::uint64_t> points;
   for (const tiling::PlannedTile& tile : job.tiles.tiles) points.push_back(tile.covered_points);
   const std::size_t most = std::min(points.size(), static_cast<std::size_t>(job.memory.tile_workers));
   std::partial_sort(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(most), points.end(), std::greater<>());
-  std::uint64_t bytes = 0;
-  for (std::size_t i = 0; i < most; ++i) bytes += job.memory.tile_bytes(points[i]);
-  return bytes;
+  double tiles = 0.0;
+  for (std::size_t i = 0; i < most; ++i)
+    tiles += (i == 0 ? 1.0 : kOfFurtherTiles) * kOfTile * static_cast<double>(job.memory.tile_bytes(points[i]));
+  const double gather = kGatherBytes * std::min(1.0, static_cast<double>(job.survey.points()) / kGatherPoints);
+  return job.memory.resident_bytes + job.memory_request.kept_bytes +
+         static_cast<std::uint64_t>(std::max(tiles, gather));
 }
 
 }  // namespace
@@ -51,7 +59,7 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, const RunRequest& reque
                     grouped(job.tiles.largest_covered_points), human_bytes(largest),
                     human_bytes(least_budget_bytes(job.tiles.largest_covered_points, job.memory_request))));
   }
-  job.predicted_peak_bytes = job.memory.fixed_bytes + bytes_in_flight(job);
+  job.predicted_peak_bytes = likely_peak_bytes(job);
   const double stored = static_cast<double>(job.survey.points()) * job.tiles.duplication;
   job.predicted_temp_bytes =
       static_cast<std::uint64_t>(stored * kStoredBytesPerPoint +
