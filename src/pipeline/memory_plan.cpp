@@ -17,6 +17,8 @@ constexpr std::uint64_t kLeastSpoolBytes = 4 * kMiB;
 /// The survey's counts (bounded by their number of leaves), the read buffers and batches of one input, one writer, and
 /// thread stacks; measured, rounded up.
 constexpr std::uint64_t kPassBytes = 48 * kMiB;
+/// Queries, the index of their regions, blocks of tile files.
+constexpr std::uint64_t kWidenBytes = 32 * kMiB;
 /// Beyond this a larger tile saves nothing: its halo is already a few percent of its core.
 constexpr std::uint64_t kLargestTilePoints = 2'000'000;
 /// On top of the least budget that is named: what is resident differs from run to run.
@@ -24,9 +26,12 @@ constexpr std::uint64_t kSpareBytes = 4 * kMiB;
 /// Kept free: the allocator's fragments and what predictions miss.
 constexpr double kSafety = 0.92;
 
+std::uint64_t scratch_bytes(const MemoryRequest& request) {
+  return static_cast<std::uint64_t>(request.threads) * static_cast<std::uint64_t>(request.method.per_thread);
+}
+
 std::uint64_t fixed_bytes(const MemoryRequest& request, std::uint64_t resident, std::uint64_t spool_buffer_bytes) {
-  return request.kept_bytes + resident + kPassBytes + spool_buffer_bytes +
-         static_cast<std::uint64_t>(request.threads) * static_cast<std::uint64_t>(request.method.per_thread);
+  return request.kept_bytes + resident + kPassBytes + spool_buffer_bytes + scratch_bytes(request);
 }
 
 std::uint64_t spool_buffer_bytes(std::uint64_t budget_bytes) {
@@ -45,6 +50,12 @@ std::uint64_t MemoryPlan::tile_bytes(std::uint64_t points) const {
   return bytes_of_tile(points, method);
 }
 
+std::uint64_t MemoryPlan::widen_bytes() const {
+  const auto usable = static_cast<std::uint64_t>(kSafety * static_cast<double>(budget_bytes));
+  const std::uint64_t taken = arris::resident_bytes() + scratch_bytes + kWidenBytes;
+  return std::max(tiles_bytes, usable - std::min(usable, taken));
+}
+
 std::uint64_t least_budget_bytes(std::uint64_t points, const MemoryRequest& request) {
   const std::uint64_t needed =
       fixed_bytes(request, resident_bytes(), kLeastSpoolBytes) + bytes_of_tile(points, request.method);
@@ -55,6 +66,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   MemoryPlan plan;
   plan.budget_bytes = request.budget_bytes;
   plan.method = request.method;
+  plan.scratch_bytes = scratch_bytes(request);
   plan.spool_buffer_bytes = spool_buffer_bytes(request.budget_bytes);
   plan.resident_bytes = resident_bytes();
   plan.fixed_bytes = fixed_bytes(request, plan.resident_bytes, plan.spool_buffer_bytes);

@@ -29,11 +29,14 @@ struct MemoryPlan {
   std::uint64_t spool_buffer_bytes = 0;
   int tile_workers = 1;               ///< Tiles in flight at most.
   std::uint64_t max_tile_points = 0;  ///< Covered points per tile.
+  std::uint64_t scratch_bytes = 0;    ///< Of all threads; part of fixed_bytes.
   MethodBytes method;
 
   /// Predicted peak bytes of one tile of `points` covered points: the larger of building it and of loading and
   /// analysing it.
   std::uint64_t tile_bytes(std::uint64_t points) const;
+  /// What points in flight may take once nothing is routed any more, as things stand now; at least tiles_bytes.
+  std::uint64_t widen_bytes() const;
 };
 
 /// Throws BudgetError with the least budget that would do if not even tiles of kLeastTilePoints fit.

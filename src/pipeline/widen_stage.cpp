@@ -25,7 +25,7 @@ constexpr std::size_t kGroupQueries = 8192;
 class Widener {
  public:
   Widener(const TileJob& job, const TileAnalysis& analysis, const tiling::TileStore& store, WidenResult& outcome)
-      : job_(job), analysis_(analysis), store_(store), outcome_(outcome) {}
+      : job_(job), analysis_(analysis), store_(store), bytes_(job.memory.widen_bytes()), outcome_(outcome) {}
 
   void answer(std::span<const UnprovenQuery> queries) {
     std::optional<TilePoints> points = collect(queries);
@@ -99,7 +99,7 @@ class Widener {
           tile, [&](const LatticePoint& p) { return regions.contains(p); }, positions, ids,
           [&](const LatticeBox& box) { return regions.touches(box); });
       if (positions.size() > job_.memory.max_tile_points && queries.size() > 1) return std::nullopt;
-      if (job_.memory.tile_bytes(positions.size()) > job_.memory.tiles_bytes) return std::nullopt;
+      if (job_.memory.tile_bytes(positions.size()) > bytes_) return std::nullopt;
     }
     TilePoints points;
     tiling::fold_duplicates(std::move(positions), std::move(ids), points);
@@ -113,6 +113,7 @@ class Widener {
   const TileJob& job_;
   const TileAnalysis& analysis_;
   const tiling::TileStore& store_;
+  std::uint64_t bytes_;  ///< For the points of a group of queries.
   WidenResult& outcome_;
 };
 
