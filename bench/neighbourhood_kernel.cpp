@@ -86,8 +86,8 @@ struct Cloud {
 };
 
 void count_points(benchmark::State& state, const Cloud& cloud) {
-  state.counters["points/s"] = benchmark::Counter(static_cast<double>(cloud.points.size()),
-                                                  benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["points/s"] =
+      benchmark::Counter(static_cast<double>(cloud.points.size()), benchmark::Counter::kIsIterationInvariantRate);
 }
 
 /// Every point's k neighbours, bucket by bucket as run_queries() does.
