@@ -87,7 +87,9 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
 
   const std::uint64_t share = plan.tiles_bytes / plan.tile_workers;
   std::uint64_t low = 1;
-  std::uint64_t high = kLargestTilePoints + 1;  // Largest number of points whose tile fits lies in [low, high).
+  // Largest number of points whose tile fits lies in [low, high). Fewer workers have no larger tiles than more will
+  // have with a little more memory: a larger budget never gives smaller tiles.
+  std::uint64_t high = (plan.tile_workers < request.threads ? kFairTilePoints : kLargestTilePoints) + 1;
   while (high - low > 1) {
     const std::uint64_t middle = low + (high - low) / 2;
     (plan.tile_bytes(middle) <= share ? low : high) = middle;

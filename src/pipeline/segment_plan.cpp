@@ -33,8 +33,10 @@ TileJob plan_job(tiling::Survey survey, const SegmentRequest& request, SegmentPa
   TileNeeds needs;
   needs.halo = [&](double spacing) { return segment_halo(parameters, spacing); };
   needs.max_radius = (parameters.published ? 2.0 : 3.0) * parameters.reach();
-  // Scans have 2 to 10 % of their points on the frontier; those without planes more.
-  needs.result_bytes_per_point = 0.06 * 4.0 * static_cast<double>(4 + parameters.most_neighbours());
+  // Scans have 2 to 10 % of their points on the frontier; half of them is more than real scans have.
+  const double frontier_bytes = 4.0 * static_cast<double>(4 + parameters.most_neighbours());
+  needs.likely_result_bytes_per_point = 0.06 * frontier_bytes;
+  needs.most_result_bytes_per_point = 0.5 * frontier_bytes;
   plan_tiles_of(job, needs, request, progress);
   return job;
 }

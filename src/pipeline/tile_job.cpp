@@ -14,9 +14,11 @@ namespace arris::pipeline {
 namespace {
 
 /// Per stored point: its record in the spool or, a little less, in the tile file that takes the spool's place. Both
-/// exist of the few tiles that are being built.
-constexpr double kStoredBytesPerPoint = tiling::kSpoolRecordBytes;
-constexpr std::uint64_t kBytesPerTile = 8 * 1024;
+/// exist of the tiles that are being built.
+constexpr double kSpoolBytesPerPoint = tiling::kSpoolRecordBytes;
+constexpr double kTileFileBytesPerPoint = 24.0;
+constexpr std::uint64_t kLikelyBytesPerTile = 8 * 1024;
+constexpr std::uint64_t kMostBytesPerTile = 64 * 1024;
 
 /// What is resident at the peak, as against fixed_bytes and tile_bytes(), which bound it: buffers are seldom full, and
 /// tiles in flight are not all at their peak together. Measured (bench/README.md).
@@ -60,12 +62,16 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, const RunRequest& reque
                     human_bytes(least_budget_bytes(job.tiles.largest_covered_points, job.memory_request))));
   }
   job.predicted_peak_bytes = likely_peak_bytes(job);
-  const double stored = static_cast<double>(job.survey.points()) * job.tiles.duplication;
-  job.predicted_temp_bytes =
-      static_cast<std::uint64_t>(stored * kStoredBytesPerPoint +
-                                 static_cast<double>(job.survey.points()) * needs.result_bytes_per_point) +
-      job.tiles.tiles.size() * kBytesPerTile + needs.further_temp_bytes;
-  check_temp_space(job.predicted_temp_bytes, request, progress);
+  const auto points = static_cast<double>(job.survey.points());
+  const double stored = points * job.tiles.duplication;
+  const auto bytes = [&](double per_stored, double per_point, std::uint64_t per_tile) {
+    return static_cast<std::uint64_t>(stored * per_stored + points * per_point) + job.tiles.tiles.size() * per_tile +
+           needs.further_temp_bytes;
+  };
+  job.predicted_temp_bytes = bytes(kSpoolBytesPerPoint, needs.likely_result_bytes_per_point, kLikelyBytesPerTile);
+  check_temp_space(
+      bytes(kSpoolBytesPerPoint + kTileFileBytesPerPoint, needs.most_result_bytes_per_point, kMostBytesPerTile),
+      request, progress);
 }
 
 }  // namespace arris::pipeline

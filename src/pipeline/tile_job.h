@@ -31,7 +31,9 @@ struct TileNeeds {
   std::function<double(double spacing)> halo;  ///< See tiling::PlanRequest.
   double max_radius = 0.0;
   bool whole_halo = false;
-  double result_bytes_per_point = 2.5;   ///< On disk: 48 for one point in twenty.
+  /// On disk, of results: what scans usually need, and what is asked of the disk before work.
+  double likely_result_bytes_per_point = 2.5;  ///< 48 for one point in twenty.
+  double most_result_bytes_per_point = 8.0;
   std::uint64_t further_temp_bytes = 0;  ///< On disk at the same time.
 };
 

@@ -145,13 +145,13 @@ TEST(Reassignment, PointsOfTheWrongSegment_ComeBackUnlessAsPublished) {
 }
 
 // Noise that lifts a point over the ridge brings it nearer to the other slope's plane, but not to that slope.
-TEST(Reassignment, NoiseAboveARidge_DoesNotMovePointsToTheOtherSlope) {
+TEST(Reassignment, NoiseAboveARidge_DoesNotMovePoints) {
   const test::TempFolder folder;
   Gable gable(folder.path());
-  gable.lift_steps = 9;
+  gable.lift_steps = 12;  // With less the slope is flat, and its strays leave it.
   gable.build([](int c, int) { return c <= 0 ? 1U : 2U; });
   gable.sweep(false);
-  for (int r = 0; r < Gable::kLength; ++r) EXPECT_NE(gable.labels[gable.id(1, r)], 1U) << r;
+  for (int r = 0; r < Gable::kLength; ++r) EXPECT_EQ(gable.labels[gable.id(1, r)], 2U) << r;
 }
 
 TEST(Reassignment, PointsFarOffTheirFlatSegment_LeaveIt) {

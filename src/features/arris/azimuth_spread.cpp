@@ -13,14 +13,13 @@ struct Angles {
   template <int Bytes>
   static ARRIS_ALWAYS_INLINE void run(const double* u, const double* v, std::size_t n, double* angles) {
     using V = typename simd::Wide<Bytes>::Double;
-    constexpr std::int64_t kMagnitude = 0x7fffffffffffffff;
     constexpr double kTangent[] = {0.19891236737965800691, 0.66817863791929891999};      // tan(pi/16), tan(3 pi/16)
     constexpr double kCentre[] = {0.41421356237309504880, 1.0};                          // tan(pi/8), tan(pi/4)
     constexpr double kCentreAngle[] = {0.39269908169872415481, 0.78539816339744830962};  // pi/8, pi/4
     for (std::size_t i = 0; i < n; i += Bytes / sizeof(double)) {
       const V x = simd::load<V>(u + i), y = simd::load<V>(v + i);
-      const V ax = simd::from_bits(simd::bits(x) & kMagnitude);
-      const V ay = simd::from_bits(simd::bits(y) & kMagnitude);
+      const V ax = simd::magnitude(x);
+      const V ay = simd::magnitude(y);
       V t = (ax < ay ? ax : ay) / (ax < ay ? ay : ax);
       const V zero{};
       const V centre = t > kTangent[1] ? zero + kCentre[1] : (t > kTangent[0] ? zero + kCentre[0] : zero);

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 
+#include "features/numerics/mean_covariance.h"
+
 namespace arris {
 namespace {
 
 constexpr std::size_t kAtOnce = simd::kWidestBytes / sizeof(double);
-constexpr std::size_t kColumns = 12;
+constexpr std::size_t kSums = 10;
+constexpr std::size_t kColumns = kSums + 2;
 
 /// Balls side by side.
 struct Columns {
@@ -19,14 +22,11 @@ struct Shapes {
     using V = typename simd::Wide<Bytes>::Double;
     constexpr std::size_t kLanes = Bytes / sizeof(double);
     for (std::size_t first = 0; first < count; first += kLanes) {
-      V c[kColumns];
-      for (std::size_t i = 0; i < kColumns; ++i) c[i] = simd::load<V>(columns.at[i] + first);
-      const auto& [n, x, y, z, xx, xy, xz, yy, yz, zz, radius, spacing] = c;
-      const V inverse = 1.0 / n;
-      const V mx = x * inverse, my = y * inverse, mz = z * inverse;
-      const SymmetricMatrix<V> covariance{xx * inverse - mx * mx, xy * inverse - mx * my, xz * inverse - mx * mz,
-                                          yy * inverse - my * my, yz * inverse - my * mz, zz * inverse - mz * mz};
-      const Eigenvalues<V> values = eigenvalues_of(covariance);
+      V sums[kSums];
+      for (std::size_t i = 0; i < kSums; ++i) sums[i] = simd::load<V>(columns.at[i] + first);
+      const V radius = simd::load<V>(columns.at[kSums] + first), spacing = simd::load<V>(columns.at[kSums + 1] + first);
+      const Eigenvalues<V> values = eigenvalues_of(mean_covariance(sums).covariance);
+      const V n = sums[0], x = sums[1], y = sums[2], z = sums[3];
       const V rms = simd::square_root(values.smallest > 0.0 ? values.smallest : V{}) / spacing;
       const V middle_rms = simd::square_root(values.middle > 0.0 ? values.middle : V{}) / spacing;
       const V off_centre = simd::square_root(x * x + y * y + z * z) / (n * radius);

@@ -23,12 +23,6 @@ bool has_empty_quarter(std::uint32_t occupied) {
   return empty != 0;
 }
 
-template <class V>
-ARRIS_ALWAYS_INLINE V magnitude(const V& v) {
-  constexpr std::int64_t kMagnitude = 0x7fffffffffffffff;
-  return simd::from_bits(simd::bits(v) & kMagnitude);
-}
-
 /// Largest whole number at most v, in [0, 2^50), in the low bits.
 template <class V>
 ARRIS_ALWAYS_INLINE auto whole(const V& v) {
@@ -41,7 +35,7 @@ ARRIS_ALWAYS_INLINE auto whole(const V& v) {
 template <class V>
 ARRIS_ALWAYS_INLINE auto azimuth_bit(const V& u, const V& v, const V& has) {
   typedef typename simd::Wide<sizeof(V)>::Unsigned Bits;
-  const V share = kBinsPerQuadrant * magnitude(v) / (magnitude(u) + magnitude(v) + (1.0 - has));
+  const V share = kBinsPerQuadrant * simd::magnitude(v) / (simd::magnitude(u) + simd::magnitude(v) + (1.0 - has));
   const V above = u >= 0.0 ? share : 16.0 - share;
   const V below = u < 0.0 ? 16.0 + share : 32.0 - share;
   const V turned = v >= 0.0 ? above : below;
@@ -61,7 +55,7 @@ struct Look {
     for (std::size_t i = 0; i < p.padded_count(); i += Bytes / sizeof(double)) {
       const V x = simd::load<V>(p.x.data() + i), y = simd::load<V>(p.y.data() + i), z = simd::load<V>(p.z.data() + i);
       const V in = simd::where_at_most(x * x + y * y + z * z, radius2);
-      const V off = magnitude(plane.normal[0] * x + plane.normal[1] * y + plane.normal[2] * z - plane.offset);
+      const V off = simd::magnitude(plane.normal[0] * x + plane.normal[1] * y + plane.normal[2] * z - plane.offset);
       const V of_layer = in * simd::where_at_most(off, gate);
       count += of_layer;
       inner += of_layer * simd::where_at_most(off, 0.5 * gate);

@@ -124,11 +124,4 @@ void quadric_shares(std::span<const BallPoints* const> balls, double radius, std
   }
 }
 
-double quadric_share(const BallPoints& points, double radius, const FittedPlane& plane) {
-  const BallPoints* ball = &points;
-  double share = 1.0;
-  quadric_shares(std::span(&ball, 1), radius, std::span(&plane, 1), std::span(&share, 1));
-  return share;
-}
-
 }  // namespace arris

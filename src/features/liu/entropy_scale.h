@@ -54,9 +54,4 @@ ARRIS_ALWAYS_INLINE V entropy_of(const Eigenvalues<V>& values) {
   return values.largest > 0.0 ? entropy : zero + std::numeric_limits<double>::infinity();
 }
 
-/// k = k_min, k_min + step, ... up to min(k_max, neighbours.count). O(k_max). The sums are exact while k * distance² <
-/// 2^53; beyond, the canonical order of the neighbours makes the rounding the same everywhere. The method takes
-/// ScaleBatch, which is the same for eight queries at once.
-ScaleChoice choose_scale(const Neighbours& neighbours, const ScaleRange& range);
-
 }  // namespace arris

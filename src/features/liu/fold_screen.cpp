@@ -1,5 +1,7 @@
 #include "features/liu/fold_screen.h"
 
+#include "features/numerics/mean_covariance.h"
+
 namespace arris {
 
 struct FoldScreen::Kernel {
@@ -10,15 +12,11 @@ struct FoldScreen::Kernel {
       const auto in = [&](std::size_t row) __attribute__((always_inline)) {
         return simd::load<V>(s.in_[row].data() + i);
       };
-      const V n = in(0);
-      const V inverse = 1.0 / n;
-      const V mx = in(1) * inverse;
-      const V my = in(2) * inverse;
-      const V mz = in(3) * inverse;
-      const SymmetricMatrix<V> c{in(4) * inverse - mx * mx, in(5) * inverse - mx * my, in(6) * inverse - mx * mz,
-                                 in(7) * inverse - my * my, in(8) * inverse - my * mz, in(9) * inverse - mz * mz};
+      V sums[10];
+      for (std::size_t row = 0; row < 10; ++row) sums[row] = in(row);
+      const SymmetricMatrix<V> c = mean_covariance(sums).covariance;
       const Eigenvalues<V> values = eigenvalues_of(c);
-      const V bound = chord_deviation_bound(values, n, in(10));
+      const V bound = chord_deviation_bound(values, sums[0], in(10));
       std::size_t row = 0;
       for (const V& out : {c.xx, c.xy, c.xz, c.yy, c.yz, c.zz, values.largest, values.middle, values.smallest, bound}) {
         simd::store(s.out_[row++].data() + i, out);

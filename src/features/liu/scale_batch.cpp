@@ -6,7 +6,7 @@
 namespace arris {
 namespace {
 
-/// Moments of growing neighbourhoods, one per lane, added up in canonical order as in choose_scale().
+/// Moments of growing neighbourhoods, one per lane, added up in canonical order.
 template <class V>
 struct Moments {
   V x{}, y{}, z{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};

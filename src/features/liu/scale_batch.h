@@ -1,5 +1,5 @@
 #pragma once
-/// @file choose_scale() for eight queries at once.
+/// @file The number of neighbours of eight queries at once.
 
 #include <array>
 #include <cstddef>
@@ -9,7 +9,9 @@
 
 namespace arris {
 
-/// Law: the choices are those of choose_scale(), bit by bit, at every vector width. Not thread-safe.
+/// Tries k = k_min, k_min + step, ... up to min(k_max, neighbours). The sums are exact while k * distance² < 2^53;
+/// beyond, the canonical order of the neighbours makes the rounding the same everywhere. Law: bits depend neither on
+/// the other queries nor on the vectors' width. Not thread-safe.
 class ScaleBatch {
  public:
   static constexpr std::size_t kCount = 8;

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "features/numerics/exact_sums.h"
+#include "features/numerics/mean_covariance.h"
 
 namespace arris {
 namespace {
@@ -137,12 +138,7 @@ void sum(const CandidateSet<std::int64_t>& c, const BallQuery<std::int64_t>& bal
 }  // namespace
 
 SymmetricMatrix<double> BallMoments::covariance() const {
-  const double inverse = 1.0 / n;
-  const double mx = x * inverse;
-  const double my = y * inverse;
-  const double mz = z * inverse;
-  return {xx * inverse - mx * mx, xy * inverse - mx * my, xz * inverse - mx * mz,
-          yy * inverse - my * my, yz * inverse - my * mz, zz * inverse - mz * mz};
+  return mean_covariance({n, x, y, z, xx, xy, xz, yy, yz, zz}).covariance;
 }
 
 template <class T>

@@ -43,6 +43,14 @@ struct NearestScratch {
   std::vector<std::uint32_t> sorted;
   std::vector<T> sorted_d2;
   std::vector<std::pair<T, std::uint32_t>> pairs;
+
+  void make_room(std::size_t candidates) {
+    const std::size_t room = simd::padded(candidates) + simd::kPadding;
+    if (d2.size() >= room) return;
+    for (auto* column : {&d2, &sorted_d2}) column->resize(room);
+    for (auto* column : {&candidate, &sorted}) column->resize(room);
+    rank.resize(room);
+  }
 };
 
 /// The query itself is one of the candidates. Fills min(k, those within max_d2) neighbours; ties are resolved by id.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "features/numerics/exact_sums.h"
+#include "features/numerics/mean_covariance.h"
 
 namespace arris {
 namespace {
@@ -165,14 +166,11 @@ struct CutSquares {
 }  // namespace
 
 FittedPlane fit_plane(const PointSums& s) {
-  const double inverse = 1.0 / s.n;
-  const double mx = s.x * inverse, my = s.y * inverse, mz = s.z * inverse;
-  const PrincipalFrame frame =
-      principal_frame({s.xx * inverse - mx * mx, s.xy * inverse - mx * my, s.xz * inverse - mx * mz,
-                       s.yy * inverse - my * my, s.yz * inverse - my * mz, s.zz * inverse - mz * mz});
+  const MeanCovariance<double> m = mean_covariance({s.n, s.x, s.y, s.z, s.xx, s.xy, s.xz, s.yy, s.yz, s.zz});
+  const PrincipalFrame frame = principal_frame(m.covariance);
   FittedPlane plane;
   plane.normal = frame.e3;
-  plane.centroid = {mx, my, mz};
+  plane.centroid = {m.x, m.y, m.z};
   plane.offset = dot(plane.normal, plane.centroid);
   plane.e1 = frame.e1;
   plane.e2 = frame.e2;

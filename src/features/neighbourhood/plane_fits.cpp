@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "features/numerics/frame_lanes.h"
+#include "features/numerics/mean_covariance.h"
 
 namespace arris {
 namespace {
@@ -24,19 +25,16 @@ struct Fits {
     for (std::size_t lane = 0; lane < count; lane += Bytes / sizeof(double)) {
       V sums[kSums];
       for (std::size_t i = 0; i < kSums; ++i) sums[i] = simd::load<V>(columns.sums[i] + lane);
-      const auto& [n, x, y, z, xx, xy, xz, yy, yz, zz] = sums;
-      const V inverse = 1.0 / n;
-      const V mx = x * inverse, my = y * inverse, mz = z * inverse;
-      const FrameLanes<V> f = frame_lanes<V>({xx * inverse - mx * mx, xy * inverse - mx * my, xz * inverse - mx * mz,
-                                              yy * inverse - my * my, yz * inverse - my * mz, zz * inverse - mz * mz});
+      const MeanCovariance<V> m = mean_covariance(sums);
+      const FrameLanes<V> f = frame_lanes(m.covariance);
       const V zero{};
       const V results[kResults] = {f.e3.x,
                                    f.e3.y,
                                    f.e3.z,
-                                   f.e3.x * mx + f.e3.y * my + f.e3.z * mz,
-                                   mx,
-                                   my,
-                                   mz,
+                                   f.e3.x * m.x + f.e3.y * m.y + f.e3.z * m.z,
+                                   m.x,
+                                   m.y,
+                                   m.z,
                                    f.e1.x,
                                    f.e1.y,
                                    f.e1.z,

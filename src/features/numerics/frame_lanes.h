@@ -1,5 +1,6 @@
 #pragma once
-/// @file principal_frame() for matrices in the lanes of vectors: selections for branches, same bits lane by lane.
+/// @file Principal frames of one matrix (V = double) or of those in the lanes of vectors: selections for branches, so
+/// that both have the same bits.
 
 #include "features/numerics/symmetric_eigen3.h"
 
@@ -36,13 +37,7 @@ template <class M, class V>
 ARRIS_ALWAYS_INLINE VectorOf3<V> select(const M& mask, const VectorOf3<V>& a, const VectorOf3<V>& b) {
   return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
 }
-template <class V>
-ARRIS_ALWAYS_INLINE V magnitude(const V& v) {
-  constexpr std::int64_t kMagnitude = 0x7fffffffffffffff;
-  return simd::from_bits(simd::bits(v) & kMagnitude);
-}
-
-/// kernel_vector().
+/// Unit vectors in the kernels of a - value; the first axis where none of it is determined.
 template <class V>
 ARRIS_ALWAYS_INLINE VectorOf3<V> kernel_vectors(const SymmetricMatrix<V>& a, const V& value) {
   const VectorOf3<V> r0{a.xx - value, a.xy, a.xz};
@@ -61,11 +56,11 @@ ARRIS_ALWAYS_INLINE VectorOf3<V> kernel_vectors(const SymmetricMatrix<V>& a, con
   return select(best_norm2 > 0.0, unit, VectorOf3<V>{zero + 1.0, zero, zero});
 }
 
-/// any_perpendicular().
+/// Unit vectors at right angles to the unit vectors w.
 template <class V>
 ARRIS_ALWAYS_INLINE VectorOf3<V> any_perpendiculars(const VectorOf3<V>& w) {
   const V zero{};
-  const auto by_x = magnitude(w.x) > magnitude(w.y);
+  const auto by_x = simd::magnitude(w.x) > simd::magnitude(w.y);
   const V main = by_x ? w.x : w.y;
   const V inverse = 1.0 / simd::square_root(main * main + w.z * w.z);
   return {by_x ? -w.z * inverse : zero, by_x ? zero : w.z * inverse, by_x ? w.x * inverse : -w.y * inverse};
@@ -73,7 +68,7 @@ ARRIS_ALWAYS_INLINE VectorOf3<V> any_perpendiculars(const VectorOf3<V>& w) {
 
 }  // namespace detail
 
-/// V is a vector of doubles. @param values  eigenvalues_of(a).
+/// @param values  eigenvalues_of(a).
 template <class V>
 ARRIS_ALWAYS_INLINE FrameLanes<V> frame_lanes(const SymmetricMatrix<V>& a, const Eigenvalues<V>& values) {
   using namespace detail;

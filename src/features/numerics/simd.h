@@ -103,6 +103,11 @@ template <class L>
 ARRIS_ALWAYS_INLINE auto from_bits(const L& v) {
   return (typename Wide<sizeof(L)>::Double)v;
 }
+/// |v|.
+template <class V>
+ARRIS_ALWAYS_INLINE V magnitude(const V& v) {
+  return from_bits(bits(v) & std::int64_t{0x7fffffffffffffff});
+}
 ARRIS_ALWAYS_INLINE std::int64_t shift_right_unsigned(std::int64_t v, int by) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(v) >> by);
 }
