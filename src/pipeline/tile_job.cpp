@@ -8,14 +8,10 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "pipeline/run_support.h"
-#include "tiling/spool.h"
 
 namespace arris::pipeline {
 namespace {
 
-/// Per stored point: its record in the spool or, a little less, in the tile file that takes the spool's place. Both
-/// exist of the few tiles that are being built.
-constexpr double kStoredBytesPerPoint = tiling::kSpoolRecordBytes;
 constexpr std::uint64_t kBytesPerTile = 8 * 1024;
 
 /// What is resident at the peak, as against fixed_bytes and tile_bytes(), which bound it: buffers are seldom full, and
@@ -60,9 +56,10 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, const RunRequest& reque
                     human_bytes(least_budget_bytes(job.tiles.largest_covered_points, job.memory_request))));
   }
   job.predicted_peak_bytes = likely_peak_bytes(job);
-  const double stored = static_cast<double>(job.survey.points()) * job.tiles.duplication;
+  const double stored =
+      static_cast<double>(job.survey.points()) * (1.0 + (job.tiles.duplication - 1.0) * needs.halo_fill);
   job.predicted_temp_bytes =
-      static_cast<std::uint64_t>(stored * kStoredBytesPerPoint +
+      static_cast<std::uint64_t>(stored * needs.stored_bytes_per_point +
                                  static_cast<double>(job.survey.points()) * needs.result_bytes_per_point) +
       job.tiles.tiles.size() * kBytesPerTile + needs.further_temp_bytes;
   check_temp_space(job.predicted_temp_bytes, request, progress);
