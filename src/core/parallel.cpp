@@ -26,13 +26,18 @@ tbb::global_control& one_tbb_thread() {
   return control;
 }
 const tbb::global_control& applied_at_start = one_tbb_thread();
-std::atomic<int> loop_threads{0};  // 0: no limit is alive.
+std::atomic<int> limit{0};  // 0: none is alive.
 }  // namespace
 
 struct ThreadLimit::Impl {
-  explicit Impl(int threads) { loop_threads = std::max(1, threads); }
-  ~Impl() { loop_threads = 0; }
+  explicit Impl(int threads) { limit = std::max(1, threads); }
+  ~Impl() { limit = 0; }
 };
+
+int loop_threads() {
+  const int now = limit;
+  return now > 0 ? now : 4;
+}
 
 void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body) {
@@ -51,7 +56,7 @@ void parallel_for_chunks(std::size_t count, std::size_t grain,
     }
   };
   std::vector<std::thread> threads;
-  for (int i = 1; i < (loop_threads > 0 ? loop_threads.load() : 4); ++i) threads.emplace_back(work);
+  for (int i = 1; i < loop_threads(); ++i) threads.emplace_back(work);
   work();
   for (std::thread& thread : threads) thread.join();
   if (error) std::rethrow_exception(error);
@@ -62,6 +67,10 @@ struct ThreadLimit::Impl {
       : control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(std::max(1, threads))) {}
   tbb::global_control control;
 };
+
+int loop_threads() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
 
 void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body) {

@@ -26,6 +26,9 @@ class ThreadLimit {
 /// Threads the machine offers.
 int hardware_threads();
 
+/// How many threads a loop may use now.
+int loop_threads();
+
 /// Calls body(begin, end) over disjoint ranges that cover [0, count), each at most `grain` long (grain >= 1), in
 /// parallel. The ranges are always [i*grain, min((i+1)*grain, count)): their cut does not depend on the number of
 /// threads. Isolated: a thread that waits for its loop takes no task from outside of the loop. The first exception

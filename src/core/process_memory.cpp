@@ -5,6 +5,8 @@
 #include <fstream>
 #include <string>
 
+#include "core/pages.h"
+
 namespace arris {
 namespace {
 
@@ -34,6 +36,7 @@ void configure_allocator_for_budget() {
 }
 
 void release_free_memory() {
+  drop_spare_pages();
   // Where another allocator (a sanitizer's, a preloaded one) has taken the place of glibc's, the first call sets
   // glibc's heap up, which glibc does not guard against a second thread that trims at the same time. This does.
   static const int first = malloc_trim(0);

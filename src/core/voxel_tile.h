@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/lattice.h"
+#include "core/pages.h"
 #include "core/voxel.h"
 
 namespace arris {
@@ -25,15 +25,15 @@ struct VoxelTile {
   explicit VoxelTile(const VoxelGrid& voxel_grid) : grid(voxel_grid) {}
 
   VoxelGrid grid;
-  std::vector<LatticePoint> keys;
-  std::vector<VoxelPosition> positions;  ///< Centroids.
-  std::vector<RawColour> colours;        ///< Empty if colours take no part.
-  std::vector<std::uint32_t> ranks;      ///< Among all voxels of the scan, ascending.
-  std::vector<std::uint8_t> core;        ///< 1: owned by this tile.
+  PageVector<LatticePoint> keys;
+  PageVector<VoxelPosition> positions;  ///< Centroids.
+  PageVector<RawColour> colours;        ///< Empty if colours take no part.
+  PageVector<std::uint32_t> ranks;      ///< Among all voxels of the scan, ascending.
+  PageVector<std::uint8_t> core;        ///< 1: owned by this tile.
   /// neighbours[neighbour_begin[v] .. neighbour_begin[v + 1]): the existing ones of the 26 voxels around v, in
   /// ascending (dx, dy, dz).
-  std::vector<std::uint32_t> neighbour_begin;
-  std::vector<std::uint32_t> neighbours;
+  PageVector<std::uint32_t> neighbour_begin;
+  PageVector<std::uint32_t> neighbours;
 
   std::size_t size() const { return keys.size(); }
   std::span<const std::uint32_t> neighbours_of(std::size_t v) const {

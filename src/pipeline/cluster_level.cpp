@@ -74,7 +74,7 @@ class Clustering {
     progress_.phase("supervoxels", walk_.store().size());
     walk_.for_each(true, [&](const LoadedTile& tile) {
       const std::vector<TileSeed> seeds = tile_seeds(tile.voxels, table_.clusters(), table_.by_seed_rank());
-      std::vector<std::uint32_t> clusters_of =
+      PageVector<std::uint32_t> clusters_of =
           grow_clusters(tile.voxels, tile.features, table_.clusters(), seeds, parameters_, scale_);
       if (last) {
         const std::vector<OrphanVoxel> orphans =
@@ -90,7 +90,7 @@ class Clustering {
 
   void move_seeds() {
     walk_.for_each(false, [&](const LoadedTile& tile) {
-      std::vector<std::uint32_t> clusters_of(tile.voxels.size());
+      PageVector<std::uint32_t> clusters_of(tile.voxels.size());
       for (std::size_t v = 0; v < clusters_of.size(); ++v) clusters_of[v] = level_.clusters_of[tile.voxels.ranks[v]];
       table_.offer_seeds(tile.voxels, clusters_of);
     });

@@ -118,13 +118,16 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     report.voxel_tiles = labelled->scene.clusters.tiles;
     report.peak_temp_bytes = labelled->scene.peak_temp_bytes;
     plan.memory = plan_memory(plan.memory_request);
+    plan.voxel_temp_bytes = labelled->scene.store.bytes_on_disk();
     watch.lap("supervoxels");
   }
   plan_job_tiles(plan, request, sink);
   describe_plan(plan, inputs, request, report);
   warn_of_dropped(report, sink);
-  if (labelled)
+  if (labelled) {
     report.predicted_peak_bytes = std::max(report.predicted_peak_bytes, labelled->scene.predicted_peak_bytes);
+    report.predicted_temp_bytes = std::max(report.predicted_temp_bytes, labelled->scene.peak_temp_bytes);
+  }
 
   merge::ResultSpool results(folder.path(), inputs.points());
   const bool any_test = plan.method.any_test();  // Without, all points are no contour.

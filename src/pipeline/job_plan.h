@@ -8,8 +8,9 @@
 namespace arris::pipeline {
 
 struct JobPlan : TileJob {
-  ContourParameters method;  ///< Resolved.
-  SupervoxelScale scale;     ///< Of methods by supervoxels.
+  ContourParameters method;            ///< Resolved.
+  SupervoxelScale scale;               ///< Of methods by supervoxels.
+  std::uint64_t voxel_temp_bytes = 0;  ///< On disk, of the voxels: likely at first; what the store takes, once it is.
 };
 
 /// R_max, where the user gives none, in units of the survey's spacing. Wide enough for scans whose density falls with

@@ -48,7 +48,7 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   warn_of_dropped(report, sink);
   const double spacing = request.spacing > 0.0 ? request.spacing : survey.spacing;
   const SupervoxelScale scale = resolve_scale(report.parameters, spacing, survey.lattice);
-  report.predicted_temp_bytes = predicted_voxel_temp_bytes(survey, scale);
+  report.predicted_temp_bytes = predicted_voxel_temp_bytes(survey, scale, VoxelMemory(request.memory_bytes));
   check_temp_space(report.predicted_temp_bytes, request, sink);
   watch.lap("survey");
 

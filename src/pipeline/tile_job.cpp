@@ -8,14 +8,11 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "pipeline/run_support.h"
-#include "tiling/spool.h"
 
 namespace arris::pipeline {
 namespace {
 
-/// Per stored point: its record in the spool or, a little less, in the tile file that takes the spool's place. Both
-/// exist of the tiles that are being built.
-constexpr double kSpoolBytesPerPoint = tiling::kSpoolRecordBytes;
+/// Per stored point, at most, of tiles that are being built: spool and tile file exist together.
 constexpr double kTileFileBytesPerPoint = 24.0;
 constexpr std::uint64_t kLikelyBytesPerTile = 8 * 1024;
 constexpr std::uint64_t kMostBytesPerTile = 64 * 1024;
@@ -63,15 +60,17 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, const RunRequest& reque
   }
   job.predicted_peak_bytes = likely_peak_bytes(job);
   const auto points = static_cast<double>(job.survey.points());
-  const double stored = points * job.tiles.duplication;
-  const auto bytes = [&](double per_stored, double per_point, std::uint64_t per_tile) {
+  const auto bytes = [&](double stored, double per_stored, double per_point, std::uint64_t per_tile) {
     return static_cast<std::uint64_t>(stored * per_stored + points * per_point) + job.tiles.tiles.size() * per_tile +
            needs.further_temp_bytes;
   };
-  job.predicted_temp_bytes = bytes(kSpoolBytesPerPoint, needs.likely_result_bytes_per_point, kLikelyBytesPerTile);
-  check_temp_space(
-      bytes(kSpoolBytesPerPoint + kTileFileBytesPerPoint, needs.most_result_bytes_per_point, kMostBytesPerTile),
-      request, progress);
+  const double most_stored = points * job.tiles.duplication;
+  const double likely_stored = points * (1.0 + (job.tiles.duplication - 1.0) * needs.halo_fill);
+  job.predicted_temp_bytes =
+      bytes(likely_stored, needs.stored_bytes_per_point, needs.likely_result_bytes_per_point, kLikelyBytesPerTile);
+  check_temp_space(bytes(most_stored, needs.stored_bytes_per_point + kTileFileBytesPerPoint,
+                         needs.most_result_bytes_per_point, kMostBytesPerTile),
+                   request, progress);
 }
 
 }  // namespace arris::pipeline

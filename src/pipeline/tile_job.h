@@ -12,6 +12,7 @@
 #include "features/contour/tile_contours.h"
 #include "pipeline/memory_plan.h"
 #include "pipeline/run_request.h"
+#include "tiling/spool.h"
 #include "tiling/survey.h"
 #include "tiling/tile_plan.h"
 
@@ -31,6 +32,10 @@ struct TileNeeds {
   std::function<double(double spacing)> halo;  ///< See tiling::PlanRequest.
   double max_radius = 0.0;
   bool whole_halo = false;
+  /// On disk, per point of a tile: its record in the spool or, a little less, in the tile file that takes the spool's
+  /// place. Both exist of the few tiles that are being built.
+  double stored_bytes_per_point = tiling::kSpoolRecordBytes;
+  double halo_fill = 1.0;  ///< Plans count the cells that a halo meets whole; this share of their points lies in it.
   /// On disk, of results: what scans usually need, and what is asked of the disk before work.
   double likely_result_bytes_per_point = 2.5;  ///< 48 for one point in twenty.
   double most_result_bytes_per_point = 8.0;

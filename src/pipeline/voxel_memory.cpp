@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/process_memory.h"
 #include "core/text.h"
+#include "core/voxel.h"
+#include "tiling/voxel_order.h"
+#include "tiling/voxel_sums.h"
 
 namespace arris::pipeline {
 namespace {
@@ -19,7 +23,10 @@ constexpr std::uint64_t kPassBytes = 16 * kMiB;
 constexpr std::uint64_t kSurveyBytes = 8 * kMiB;
 constexpr std::uint64_t kLeastTableBytes = 4 * kMiB;
 constexpr std::uint64_t kMostTableBytes = 96 * kMiB;
-constexpr double kVoxelTempBytes = 36.0 + 80.0;
+constexpr double kStoreBytes = sizeof(Voxel);
+/// Of runs, where there are any: neighbours in the file are neighbours in space, but a street is scanned twice.
+constexpr double kRunEntries = 1.35;
+constexpr double kTableEntryBytes = sizeof(tiling::VoxelSums) + tiling::kOrderBytes;
 /// Surfaces cut voxels off-centre: about this many per area of a voxel's face.
 constexpr double kVoxelsPerFace = 1.5;
 
@@ -30,10 +37,18 @@ constexpr double kIndexBytes = 3.0 + 4.0;
 /// Per supervoxel: moments, table, neighbours.
 constexpr double kSupervoxelBytes = 260.0;
 
+/// From the counts of the survey: the points of a cell fill what voxels a surface through it crosses. Within a tenth on
+/// towns of any density, 0.8 of what there is where voxels are as large as the survey's cells.
 double likely_voxels(const tiling::Survey& survey, const SupervoxelScale& scale) {
-  const double side = scale.voxel_steps * survey.lattice.step;
-  const double per_point = std::min(1.0, kVoxelsPerFace * survey.spacing * survey.spacing / (side * side));
-  return static_cast<double>(survey.points()) * per_point;
+  constexpr double kTilted = 1.3;  // More than a flat surface crosses. Measured.
+  const double sides = std::ldexp(1.0, survey.counts.level()) / scale.voxel_steps;  // Voxels along a cell.
+  const double flat = 0.5 * (1.0 + sides * sides);  // A cell is seldom crossed from side to side.
+  double voxels = 0.0;
+  survey.counts.for_each([&](const LatticeBox&, std::uint64_t points) {
+    const auto n = static_cast<double>(points);
+    voxels += std::min(n, kTilted * flat * (1.0 - std::exp(-n / flat)));
+  });
+  return voxels;
 }
 
 }  // namespace
@@ -53,12 +68,13 @@ VoxelMemory::VoxelMemory(std::uint64_t budget_bytes)
 
 std::uint64_t VoxelMemory::stage_bytes() const {
   before_stage_bytes_ = resident_bytes();
+  peak_before_stage_bytes_ = peak_resident_bytes();
   const std::uint64_t taken = before_stage_bytes_ + kPassBytes / 2;
   return usable_bytes_ > taken ? usable_bytes_ - taken : 0;
 }
 
 std::uint64_t VoxelMemory::predicted_peak_bytes(std::uint64_t stage_bytes) const {
-  return before_stage_bytes_ + std::max(kPassBytes, stage_bytes);
+  return std::max(peak_before_stage_bytes_, before_stage_bytes_ + std::max(kPassBytes, stage_bytes));
 }
 
 std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const SupervoxelScale& scale) {
@@ -67,8 +83,12 @@ std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const Supervox
   return static_cast<std::uint64_t>(likely_voxels(survey, scale) * each);
 }
 
-std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale) {
-  return static_cast<std::uint64_t>(likely_voxels(survey, scale) * kVoxelTempBytes) + kMiB;
+std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+                                         const VoxelMemory& memory) {
+  const double voxels = likely_voxels(survey, scale);
+  const bool runs = voxels * kTableEntryBytes > static_cast<double>(memory.table_bytes());
+  const double each = kStoreBytes + (runs ? kRunEntries * sizeof(tiling::VoxelSums) : 0.0);
+  return static_cast<std::uint64_t>(voxels * each) + kMiB;
 }
 
 }  // namespace arris::pipeline

@@ -19,6 +19,7 @@ class VoxelMemory {
   std::uint64_t index_bytes() const { return index_bytes_; }
   /// For the clustering, as things stand now: what is resident is deducted.
   std::uint64_t stage_bytes() const;
+  /// What was resident so far is known by then.
   std::uint64_t predicted_peak_bytes(std::uint64_t stage_bytes) const;
 
  private:
@@ -26,12 +27,15 @@ class VoxelMemory {
   std::uint64_t table_bytes_;
   std::uint64_t index_bytes_;
   mutable std::uint64_t before_stage_bytes_ = 0;
+  mutable std::uint64_t peak_before_stage_bytes_ = 0;
 };
 
 /// What a SupervoxelScene and its table keep in memory; for plans, before the voxels are known.
 std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const SupervoxelScale& scale);
 
-/// Runs and store of the voxels, for inputs whose neighbours in space are neighbours in the file.
-std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale);
+/// Runs and store of the voxels, without colours, for inputs whose neighbours in space are neighbours in the file; for
+/// plans, before the voxels are known.
+std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+                                         const VoxelMemory& memory);
 
 }  // namespace arris::pipeline

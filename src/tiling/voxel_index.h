@@ -17,6 +17,8 @@ namespace arris::tiling {
 class VoxelIndex {
  public:
   static constexpr std::uint32_t kNone = HashSlots::kNone;
+  static constexpr int kBlockSide = 8;             ///< Voxels.
+  static constexpr std::uint32_t kBlockParts = 8;  ///< 64 voxels each.
 
   /// Keys in strictly ascending Z-order, fewer than 2^32 - 1.
   void append(const LatticePoint& key);
@@ -58,6 +60,26 @@ class VoxelIndex {
   /// Index of the block with this key (voxel keys >> 3), kNone if it does not exist.
   std::uint32_t find_block(const LatticePoint& block_key) const;
 
+  /// Place of a voxel in its block, in Z-order: 64 * part + bit.
+  static constexpr std::uint32_t place_in_block(const LatticePoint& key) {
+    return std::uint32_t{kSpread[key.x & 7]} << 2 | std::uint32_t{kSpread[key.y & 7]} << 1 | kSpread[key.z & 7];
+  }
+  /// The voxels of an eighth of a block.
+  struct Part {
+    std::uint64_t bits;
+    std::uint32_t first_rank;
+    std::uint32_t rank(std::uint32_t bit) const { return first_rank + ones(bits & ((std::uint64_t{1} << bit) - 1)); }
+  };
+  Part part(std::size_t block, std::uint32_t part) const { return part_of(blocks_[block], part); }
+
+  // std::popcount is a call on processors without the instruction.
+  static std::uint32_t ones(std::uint64_t v) {
+    v -= v >> 1 & 0x5555555555555555U;
+    v = (v & 0x3333333333333333U) + (v >> 2 & 0x3333333333333333U);
+    v = (v + (v >> 4)) & 0x0f0f0f0f0f0f0f0fU;
+    return static_cast<std::uint32_t>(v * 0x0101010101010101U >> 56);
+  }
+
  private:
   static constexpr int kLog2 = 3;
   /// 32 bytes. The eight parts of a block, 4x4x4 voxels each, have a word of bits in words_, unless they are empty.
@@ -72,24 +94,14 @@ class VoxelIndex {
   static_assert(sizeof(Entry) == 32);
 
   static constexpr std::array<std::uint8_t, 8> kSpread{0, 1, 8, 9, 64, 65, 72, 73};
-  static std::uint32_t place_in_block(const LatticePoint& key) {
-    return std::uint32_t{kSpread[key.x & 7]} << 2 | std::uint32_t{kSpread[key.y & 7]} << 1 | kSpread[key.z & 7];
+  Part part_of(const Entry& entry, std::uint32_t part) const {
+    if ((entry.parts >> (24 + part) & 1) == 0) return {0, 0};
+    const auto before = static_cast<std::uint32_t>(entry.before >> 9 * ((part - 1) & 7) & 511);
+    return {words_[entry.first_word + (entry.parts >> 3 * ((part - 1) & 7) & 7)], entry.first_rank + before};
   }
   std::uint32_t rank_in(const Entry& entry, std::uint32_t place) const {
-    const std::uint32_t part = place >> 6;
-    if ((entry.parts >> (24 + part) & 1) == 0) return kNone;
-    const std::uint64_t word = words_[entry.first_word + (entry.parts >> 3 * ((part - 1) & 7) & 7)];
-    const std::uint64_t bit = std::uint64_t{1} << (place & 63);
-    if ((word & bit) == 0) return kNone;
-    const auto before = static_cast<std::uint32_t>(entry.before >> 9 * ((part - 1) & 7) & 511);
-    return entry.first_rank + before + ones(word & (bit - 1));
-  }
-  // std::popcount is a call on processors without the instruction.
-  static std::uint32_t ones(std::uint64_t v) {
-    v -= v >> 1 & 0x5555555555555555U;
-    v = (v & 0x3333333333333333U) + (v >> 2 & 0x3333333333333333U);
-    v = (v + (v >> 4)) & 0x0f0f0f0f0f0f0f0fU;
-    return static_cast<std::uint32_t>(v * 0x0101010101010101U >> 56);
+    const Part part = part_of(entry, place >> 6);
+    return (part.bits >> (place & 63) & 1) == 0 ? kNone : part.rank(place & 63);
   }
 
   std::uint32_t size_ = 0;

@@ -2,86 +2,124 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <vector>
 
 #include "core/parallel.h"
 
 namespace arris::tiling {
 namespace {
 
-constexpr std::size_t kGrain = 1024;  // Blocks.
-constexpr std::int32_t kSide = 8;     // Of a block.
-constexpr std::int32_t kCube = kSide + 2;
-constexpr std::size_t kNeighbours = 26;
+constexpr std::size_t kGrain = 128;  // Blocks.
+constexpr std::size_t kChunks = 64;  // Worked on before their lists are put together.
+constexpr int kSide = VoxelIndex::kBlockSide;
+constexpr int kCube = kSide + 2;
+constexpr int kAround = 27;
+constexpr int kSelf = 13;
+constexpr std::uint32_t kParts = VoxelIndex::kBlockParts;
+constexpr std::uint32_t kPartPlaces = 64;
 
-/// From a cell of the cube, in ascending (dx, dy, dz).
-constexpr std::array<int, kNeighbours> neighbour_offsets() {
-  std::array<int, kNeighbours> offsets{};
-  std::size_t i = 0;
-  for (int x = -1; x <= 1; ++x) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int z = -1; z <= 1; ++z) {
-        if (x != 0 || y != 0 || z != 0) offsets[i++] = (x * kCube + y) * kCube + z;
-      }
-    }
-  }
+/// From a cell of the cube to the cells around it, in ascending (dx, dy, dz).
+constexpr std::array<int, kAround> cell_offsets() {
+  std::array<int, kAround> offsets{};
+  for (int i = 0; i < kAround; ++i) offsets[i] = ((i / 9 - 1) * kCube + i / 3 % 3 - 1) * kCube + i % 3 - 1;
   return offsets;
 }
+constexpr std::array<int, kAround> kOffsets = cell_offsets();
 
-/// A block with one layer of voxels around it.
-class Cube {
- public:
-  Cube(const VoxelTile& tile, const VoxelIndex& index) : tile_(tile), index_(index) { cells_.fill(VoxelIndex::kNone); }
+/// Cells of the places in a block, counted from the block's first.
+constexpr std::array<std::uint16_t, kParts * kPartPlaces> cells_of_places() {
+  std::array<std::uint16_t, kParts * kPartPlaces> cells{};
+  for (int x = 0; x < kSide; ++x) {
+    for (int y = 0; y < kSide; ++y) {
+      for (int z = 0; z < kSide; ++z)
+        cells[VoxelIndex::place_in_block({x, y, z})] = static_cast<std::uint16_t>((x * kCube + y) * kCube + z);
+    }
+  }
+  return cells;
+}
+constexpr auto kCells = cells_of_places();
 
-  void load(std::size_t block) {
-    for (const std::uint32_t cell : used_) cells_[cell] = VoxelIndex::kNone;
-    used_.clear();
-    const VoxelIndex::Block middle = index_.block(block);
-    corner_ = {middle.key.x * kSide, middle.key.y * kSide, middle.key.z * kSide};
-    add(middle);
-    for (std::int64_t x = -1; x <= 1; ++x) {
-      for (std::int64_t y = -1; y <= 1; ++y) {
-        for (std::int64_t z = -1; z <= 1; ++z) {
-          if (x == 0 && y == 0 && z == 0) continue;
-          // Keys of blocks have 29 bits, so their neighbours' fit.
-          const LatticePoint key{static_cast<std::int32_t>(middle.key.x + x),
-                                 static_cast<std::int32_t>(middle.key.y + y),
-                                 static_cast<std::int32_t>(middle.key.z + z)};
-          const std::uint32_t found = find(key);
-          if (found != VoxelIndex::kNone) add(index_.block(found));
+/// For a block that lies at (dx, dy, dz) from another one: its places that touch the other, a word per part.
+constexpr std::array<std::array<std::uint64_t, kParts>, kAround> touching_places() {
+  std::array<std::array<std::uint64_t, kParts>, kAround> touching{};
+  const auto touches = [](int d, int at) { return d == 0 || at == (d < 0 ? kSide - 1 : 0); };
+  for (int i = 0; i < kAround; ++i) {
+    for (int x = 0; x < kSide; ++x) {
+      for (int y = 0; y < kSide; ++y) {
+        for (int z = 0; z < kSide; ++z) {
+          if (!touches(i / 9 - 1, x) || !touches(i / 3 % 3 - 1, y) || !touches(i % 3 - 1, z)) continue;
+          const std::uint32_t place = VoxelIndex::place_in_block({x, y, z});
+          touching[i][place / kPartPlaces] |= std::uint64_t{1} << (place % kPartPlaces);
         }
       }
     }
   }
+  return touching;
+}
+constexpr auto kTouching = touching_places();
 
-  /// Calls use(neighbour) for the neighbours of a voxel of the block, in ascending (dx, dy, dz).
-  template <class Use>
-  void for_each_neighbour(std::size_t voxel, Use&& use) const {
-    const std::uint32_t* const middle = cells_.data() + cell_of(tile_.keys[voxel]);
-    for (const int offset : kOffsets) {
-      const std::uint32_t neighbour = middle[offset];
-      if (neighbour != VoxelIndex::kNone) use(neighbour);
+/// Calls use(bit number) for the bits that are set, lowest first.
+template <class Word, class Use>
+void for_each_bit(Word word, Use&& use) {
+  for (; word != 0; word &= word - 1) use(static_cast<std::uint32_t>(std::countr_zero(word)));
+}
+
+/// A block with one layer of voxels around it. Which cells hold voxels is known by bits, so that nothing is asked of
+/// those that do not; ranks are there only where a bit says so.
+class Cube {
+ public:
+  explicit Cube(const VoxelIndex& index) : index_(index) {}
+
+  void load(std::size_t block) {
+    rows_.fill(0);
+    const LatticePoint key = index_.block(block).key;
+    for (int i = 0; i < kAround; ++i) {
+      // Keys of blocks have 29 bits, so their neighbours' fit.
+      const std::uint32_t at = i == kSelf ? static_cast<std::uint32_t>(block)
+                                          : find({key.x + i / 9 - 1, key.y + i / 3 % 3 - 1, key.z + i % 3 - 1});
+      if (at != VoxelIndex::kNone) add(at, i);
     }
   }
+
+  /// Calls use(bits of the neighbours by kOffsets, cell) for the voxels of the block in ascending ranks.
+  template <class Use>
+  void for_each_voxel(std::size_t block, Use&& use) const {
+    for (std::uint32_t part = 0; part < kParts; ++part) {
+      for_each_bit(index_.part(block, part).bits, [&](std::uint32_t bit) {
+        const int cell = kFirst + kCells[part * kPartPlaces + bit];
+        use(around(cell), cell);
+      });
+    }
+  }
+  std::uint32_t rank(int cell) const { return ranks_[static_cast<std::size_t>(cell)]; }
 
  private:
-  static constexpr std::array<int, kNeighbours> kOffsets = neighbour_offsets();
+  static constexpr int kFirst = (kCube + 1) * kCube + 1;  // Cell of the block's first place.
 
-  std::uint32_t cell_of(const LatticePoint& key) const {
-    const std::int32_t x = key.x - corner_.x + 1;  // Differences first: they fit, sums with keys need not.
-    const std::int32_t y = key.y - corner_.y + 1;
-    const std::int32_t z = key.z - corner_.z + 1;
-    return static_cast<std::uint32_t>((x * kCube + y) * kCube + z);
+  void add(std::uint32_t block, int direction) {
+    const int first = kFirst + kSide * kOffsets[direction];
+    for (std::uint32_t part = 0; part < kParts; ++part) {
+      const std::uint64_t touching = kTouching[direction][part];
+      if (touching == 0) continue;
+      const VoxelIndex::Part voxels = index_.part(block, part);
+      for_each_bit(voxels.bits & touching, [&](std::uint32_t bit) {
+        const int cell = first + kCells[part * kPartPlaces + bit];
+        rows_[static_cast<std::size_t>(cell / kCube)] |= static_cast<std::uint16_t>(1U << cell % kCube);
+        ranks_[static_cast<std::size_t>(cell)] = voxels.rank(bit);
+      });
+    }
   }
 
-  void add(const VoxelIndex::Block& block) {
-    for (std::uint32_t v = block.first_rank; v < block.first_rank + block.voxels; ++v) {
-      const LatticePoint& key = tile_.keys[v];
-      const auto inside = [](std::int64_t at, std::int64_t corner) { return at >= corner - 1 && at <= corner + kSide; };
-      if (!inside(key.x, corner_.x) || !inside(key.y, corner_.y) || !inside(key.z, corner_.z)) continue;
-      const std::uint32_t cell = cell_of(key);
-      cells_[cell] = v;
-      used_.push_back(cell);
+  std::uint32_t around(int cell) const {
+    const int row = cell / kCube;
+    const int below = cell % kCube - 1;
+    std::uint32_t bits = 0;
+    for (int i = 0; i < 9; ++i) {
+      const auto at = static_cast<std::size_t>(row + (i / 3 - 1) * kCube + i % 3 - 1);
+      bits |= (std::uint32_t{rows_[at]} >> below & 7U) << 3 * i;
     }
+    return bits & ~(1U << kSelf);
   }
 
   /// Blocks come in Z-order: most of those around one were around the one before.
@@ -97,43 +135,53 @@ class Cube {
     bool known = false;
   };
 
-  const VoxelTile& tile_;
   const VoxelIndex& index_;
   std::vector<Found> recent_ = std::vector<Found>(2048);
-  LatticePoint corner_;
-  std::array<std::uint32_t, kCube * kCube * kCube> cells_;
-  std::vector<std::uint32_t> used_;
+  std::array<std::uint16_t, kCube * kCube> rows_{};           // A bit per cell.
+  std::array<std::uint32_t, kCube * kCube * kCube> ranks_{};  // Per cell.
 };
+
+/// Neighbours of the voxels of some blocks, and how many each has, in counts[voxel + 1].
+void list_neighbours(const VoxelIndex& index, std::size_t begin, std::size_t end, PageVector<std::uint32_t>& list,
+                     PageVector<std::uint32_t>& counts) {
+  list.clear();
+  Cube cube(index);
+  for (std::size_t block = begin; block < end; ++block) {
+    cube.load(block);
+    const VoxelIndex::Block own = index.block(block);
+    std::size_t used = list.size();
+    list.resize(used + std::size_t{own.voxels} * (kAround - 1));
+    std::uint32_t* count = counts.data() + own.first_rank;
+    cube.for_each_voxel(block, [&](std::uint32_t around, int cell) {
+      const std::size_t before = used;
+      for_each_bit(around, [&](std::uint32_t i) { list[used++] = cube.rank(cell + kOffsets[i]); });
+      *++count = static_cast<std::uint32_t>(used - before);
+    });
+    list.resize(used);
+  }
+}
 
 }  // namespace
 
 void link_neighbours(VoxelTile& tile, const VoxelIndex& index) {
+  tile.neighbour_begin.resize(tile.size() + 1);
+  tile.neighbour_begin[0] = 0;
+  tile.neighbours.clear();
   const std::size_t blocks = index.blocks();
-  std::vector<std::vector<std::uint32_t>> lists((blocks + kGrain - 1) / kGrain);  // Of a chunk of blocks each.
-  tile.neighbour_begin.assign(tile.size() + 1, 0);
-  parallel_for_chunks(blocks, kGrain, [&](std::size_t begin, std::size_t end) {
-    Cube cube(tile, index);
-    std::vector<std::uint32_t>& list = lists[begin / kGrain];
-    for (std::size_t i = begin; i < end; ++i) {
-      cube.load(i);
-      const VoxelIndex::Block block = index.block(i);
-      for (std::size_t v = block.first_rank; v < block.first_rank + block.voxels; ++v) {
-        const std::size_t before = list.size();
-        cube.for_each_neighbour(v, [&](std::uint32_t neighbour) { list.push_back(neighbour); });
-        tile.neighbour_begin[v + 1] = static_cast<std::uint32_t>(list.size() - before);
-      }
-    }
-    list.shrink_to_fit();
-  });
+  std::vector<PageVector<std::uint32_t>> lists(std::min(kChunks, (blocks + kGrain - 1) / kGrain));
+  for (std::size_t first = 0; first < blocks; first += kChunks * kGrain) {
+    const std::size_t count = std::min(kChunks * kGrain, blocks - first);
+    parallel_for_chunks(count, kGrain, [&](std::size_t begin, std::size_t end) {
+      list_neighbours(index, first + begin, first + end, lists[begin / kGrain], tile.neighbour_begin);
+    });
+    for (std::size_t chunk = 0; chunk * kGrain < count; ++chunk)
+      tile.neighbours.insert(tile.neighbours.end(), lists[chunk].begin(), lists[chunk].end());
+    if (first > 0) continue;
+    const std::size_t after = first + count;
+    const std::size_t voxels = after < blocks ? index.block(after).first_rank : tile.size();
+    tile.neighbours.reserve(tile.neighbours.size() * tile.size() / voxels * 5 / 4);
+  }
   for (std::size_t v = 0; v < tile.size(); ++v) tile.neighbour_begin[v + 1] += tile.neighbour_begin[v];
-  tile.neighbours.resize(tile.neighbour_begin.back());
-  parallel_for_chunks(lists.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t first = tile.neighbour_begin[index.block(i * kGrain).first_rank];
-      std::copy(lists[i].begin(), lists[i].end(), tile.neighbours.begin() + first);
-      lists[i] = {};
-    }
-  });
 }
 
 }  // namespace arris::tiling

@@ -54,29 +54,39 @@ std::uint64_t VoxelStore::bytes_on_disk() const {
   return impl_->file.size_bytes();
 }
 
-void VoxelStore::load(const LatticeBox& keys, std::vector<Voxel>& voxels, std::vector<std::uint32_t>& ranks) const {
-  voxels.clear();
-  ranks.clear();
-  const std::vector<RankRange> selected = select_ranks(impl_->index, keys);
-  std::size_t most = 0;
-  for (const RankRange& range : selected) most += range.end - range.begin;
-  voxels.reserve(most);
-  ranks.reserve(most);
+void VoxelStore::for_each_stretch(
+    const LatticeBox& keys, const std::function<void(std::span<const Voxel>, std::uint32_t first_rank)>& use) const {
   std::vector<Voxel> read;
-  for (const ChunkRange& range : chunks_of(selected)) {
+  for (const ChunkRange& range : chunks_of(select_ranks(impl_->index, keys))) {
     for (std::size_t chunk = range.begin; chunk < range.end; chunk += kReadChunks) {
       read.clear();
       impl_->file.read(chunk, std::min(kReadChunks, range.end - chunk), read);
-      auto rank = static_cast<std::uint32_t>(chunk * VoxelFile::kChunkVoxels);
-      for (const Voxel& voxel : read) {
-        if (keys.contains(voxel.key)) {
-          voxels.push_back(voxel);
-          ranks.push_back(rank);
-        }
-        ++rank;
-      }
+      use(read, static_cast<std::uint32_t>(chunk * VoxelFile::kChunkVoxels));
     }
   }
+}
+
+std::size_t VoxelStore::most_voxels(const LatticeBox& keys) const {
+  std::size_t most = 0;
+  for (const RankRange& range : select_ranks(impl_->index, keys)) most += range.end - range.begin;
+  return most;
+}
+
+void VoxelStore::load(const LatticeBox& keys, std::vector<Voxel>& voxels, std::vector<std::uint32_t>& ranks) const {
+  voxels.clear();
+  ranks.clear();
+  const std::size_t most = most_voxels(keys);
+  voxels.reserve(most);
+  ranks.reserve(most);
+  for_each_stretch(keys, [&](std::span<const Voxel> stretch, std::uint32_t rank) {
+    for (const Voxel& voxel : stretch) {
+      if (keys.contains(voxel.key)) {
+        voxels.push_back(voxel);
+        ranks.push_back(rank);
+      }
+      ++rank;
+    }
+  });
 }
 
 }  // namespace arris::tiling

@@ -1,8 +1,11 @@
 #pragma once
 /// @file All voxels of a scan: one checked file in Z-order, and an index in memory.
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/lattice.h"
@@ -28,6 +31,12 @@ class VoxelStore {
   /// Replaces the outputs by the voxels whose keys lie in `keys`, in Z-order, and their ranks. Reads whole blocks, each
   /// part of the file verified by its checksum. Thread-safe. Throws IoError if the bytes are not those written.
   void load(const LatticeBox& keys, std::vector<Voxel>& voxels, std::vector<std::uint32_t>& ranks) const;
+  /// Calls use(voxels, rank of the first) for short stretches of consecutive ranks, ascending, that together hold all
+  /// voxels of the box, and others. Reads as load() does, without keeping anything.
+  void for_each_stretch(const LatticeBox& keys,
+                        const std::function<void(std::span<const Voxel>, std::uint32_t first_rank)>& use) const;
+  /// No more voxels than that lie in the box.
+  std::size_t most_voxels(const LatticeBox& keys) const;
   std::uint64_t bytes_on_disk() const;
 
  private:

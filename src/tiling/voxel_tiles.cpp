@@ -1,15 +1,15 @@
 #include "tiling/voxel_tiles.h"
 
 #include <algorithm>
+#include <span>
 
-#include "core/parallel.h"
 #include "tiling/voxel_neighbours.h"
 
 namespace arris::tiling {
 namespace {
 
-constexpr std::size_t kGrain = 16 * 1024;
 constexpr int kBlockLevel = 3;  // Of VoxelIndex.
+
 }  // namespace
 
 TilePlan plan_voxel_tiles(const VoxelIndex& index, const VoxelPlanRequest& request) {
@@ -36,29 +36,34 @@ TilePlan plan_voxel_tiles(const VoxelIndex& index, const VoxelPlanRequest& reque
 
 VoxelTile load_voxel_tile(const VoxelStore& store, const PlannedTile& planned, bool colours) {
   VoxelTile tile(store.grid());
-  std::vector<Voxel> voxels;
-  store.load(planned.covered, voxels, tile.ranks);
-  const std::size_t count = voxels.size();
-  tile.keys.resize(count);
-  tile.positions.resize(count);
-  tile.core.resize(count);
-  if (colours) tile.colours.resize(count);
-  parallel_for_chunks(count, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      const LatticePoint& key = voxels[v].key;
-      tile.keys[v] = key;
-      for (int axis = 0; axis < 3; ++axis) {
-        const std::int64_t corner = kVoxelFractions * store.grid().corner(key[axis]);
-        tile.positions[v][static_cast<std::size_t>(axis)] =
-            static_cast<std::uint32_t>(static_cast<std::uint64_t>(corner)) +
-            voxels[v].centroid[static_cast<std::size_t>(axis)];
+  const std::size_t most = store.most_voxels(planned.covered);
+  tile.keys.reserve(most);
+  tile.positions.reserve(most);
+  tile.ranks.reserve(most);
+  tile.core.reserve(most);
+  if (colours) tile.colours.reserve(most);
+  const auto position = [&](const Voxel& voxel) {
+    VoxelPosition at;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::int64_t corner = kVoxelFractions * store.grid().corner(voxel.key[axis]);
+      at[static_cast<std::size_t>(axis)] = static_cast<std::uint32_t>(static_cast<std::uint64_t>(corner)) +
+                                           voxel.centroid[static_cast<std::size_t>(axis)];
+    }
+    return at;
+  };
+  store.for_each_stretch(planned.covered, [&](std::span<const Voxel> voxels, std::uint32_t rank) {
+    for (const Voxel& voxel : voxels) {
+      if (planned.covered.contains(voxel.key)) {
+        tile.keys.push_back(voxel.key);
+        tile.positions.push_back(position(voxel));
+        tile.ranks.push_back(rank);
+        tile.core.push_back(planned.core.contains(voxel.key) ? 1 : 0);
+        if (colours) tile.colours.push_back(voxel.colour);
       }
-      tile.core[v] = planned.core.contains(key) ? 1 : 0;
-      if (colours) tile.colours[v] = voxels[v].colour;
+      ++rank;
     }
   });
-  voxels = {};
-  if (count == store.size()) {
+  if (tile.size() == store.size()) {
     link_neighbours(tile, store.index());
   } else {
     VoxelIndex index;

@@ -16,13 +16,13 @@ namespace {
 using Features = SupervoxelParameters::Features;
 using test::GrowthScene;
 
-std::vector<std::uint32_t> grow(const GrowthScene& s) {
+PageVector<std::uint32_t> grow(const GrowthScene& s) {
   return grow_clusters(s.tile, s.features, s.clusters, s.seeds, s.parameters, s.scale);
 }
 
 /// The definition, one level after the other, with maps.
 template <class Distance>
-std::vector<std::uint32_t> reference(const GrowthScene& s, const Distance& distance) {
+PageVector<std::uint32_t> reference(const GrowthScene& s, const Distance& distance) {
   using Offer = std::pair<float, std::uint32_t>;  // D, cluster.
   constexpr float kOwnSeed = -1.0F;               // A seed's voxel stays with it.
   std::map<std::uint32_t, Offer> best;
@@ -48,12 +48,12 @@ std::vector<std::uint32_t> reference(const GrowthScene& s, const Distance& dista
       frontier[voxel] = offer.second;
     }
   }
-  std::vector<std::uint32_t> clusters(s.tile.size(), kNoCluster);
+  PageVector<std::uint32_t> clusters(s.tile.size(), kNoCluster);
   for (const auto& [voxel, offer] : best) clusters[voxel] = offer.second;
   return clusters;
 }
 
-std::vector<std::uint32_t> reference(const GrowthScene& s) {
+PageVector<std::uint32_t> reference(const GrowthScene& s) {
   const ClusterDistanceData data{s.tile, s.features, s.clusters};
   return s.parameters.features == Features::kFpfh ? reference(s, HistogramDistance(data, s.parameters, s.scale))
                                                   : reference(s, NormalDistance(data, s.parameters, s.scale));
@@ -78,7 +78,7 @@ TEST(ClusterGrowth, ThreadsAndOrderOfSeeds_DoNotMatter) {
       const ThreadLimit limit(threads);
       return grow(scene);
     };
-    const std::vector<std::uint32_t> one = with_threads(1);
+    const PageVector<std::uint32_t> one = with_threads(1);
     EXPECT_EQ(with_threads(4), one);
     std::shuffle(scene.seeds.begin(), scene.seeds.end(), std::mt19937_64(seed));
     EXPECT_EQ(with_threads(3), one);
@@ -88,14 +88,14 @@ TEST(ClusterGrowth, ThreadsAndOrderOfSeeds_DoNotMatter) {
 RC_GTEST_PROP(ClusterGrowth, CutAsManyVoxelsAwayAsLevels_CoreStays, ()) {
   GrowthScene scene = any_scene(5000);
   std::mt19937_64 random(scene.tile.size());
-  const std::vector<std::uint32_t> whole = grow(scene);
+  const PageVector<std::uint32_t> whole = grow(scene);
   const LatticeBox core = test::any_core(scene.tile, random);
   std::vector<std::uint32_t> from;
   GrowthScene part = scene;
   part.tile = test::part_of(scene.tile, core, scene.scale.levels, from);
   part.features = test::part_of(scene.features, from);
   part.seeds = tile_seeds(part.tile, scene.clusters, scene.by_rank);
-  const std::vector<std::uint32_t> clusters = grow(part);
+  const PageVector<std::uint32_t> clusters = grow(part);
   for (std::size_t v = 0; v < clusters.size(); ++v) {
     if (part.tile.core[v] != 0) RC_ASSERT(clusters[v] == whole[from[v]]);
   }
@@ -106,7 +106,7 @@ RC_GTEST_PROP(ClusterGrowth, DistancesAllZero_EverySeedKeepsItsVoxel, ()) {
   GrowthScene scene = any_scene(2000);
   scene.parameters.normal_weight = scene.parameters.spatial_weight = scene.parameters.colour_weight = 0.0;
   scene.parameters.lambda = scene.parameters.mu = scene.parameters.epsilon = 0.0;
-  const std::vector<std::uint32_t> clusters = grow(scene);
+  const PageVector<std::uint32_t> clusters = grow(scene);
   for (const TileSeed& seed : scene.seeds) RC_ASSERT(clusters[seed.voxel] == seed.cluster);
   RC_ASSERT(clusters == reference(scene));
 }
@@ -114,7 +114,7 @@ RC_GTEST_PROP(ClusterGrowth, DistancesAllZero_EverySeedKeepsItsVoxel, ()) {
 TEST(ClusterGrowth, NoSeeds_NoVoxelHasACluster) {
   GrowthScene scene = test::growth_scene(Features::kNormal, false, 500, 1);
   scene.seeds.clear();
-  EXPECT_EQ(grow(scene), std::vector<std::uint32_t>(scene.tile.size(), kNoCluster));
+  EXPECT_EQ(grow(scene), PageVector<std::uint32_t>(scene.tile.size(), kNoCluster));
 }
 
 RC_GTEST_PROP(TileSeeds, AnyPart_HasThoseInIt, ()) {

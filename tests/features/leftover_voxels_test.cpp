@@ -17,22 +17,22 @@ using Features = SupervoxelParameters::Features;
 using test::GrowthScene;
 
 struct Settled {
-  std::vector<std::uint32_t> clusters;
+  PageVector<std::uint32_t> clusters;
   std::vector<OrphanVoxel> orphans;
 };
 
 Settled settle(const GrowthScene& s, const VoxelTile& tile, const VoxelFeatures& features,
-               const std::vector<std::uint32_t>& clusters) {
+               const PageVector<std::uint32_t>& clusters) {
   Settled result{clusters, {}};
   result.orphans = settle_leftovers(tile, features, s.clusters, s.parameters, s.scale, result.clusters);
   return result;
 }
 
-std::vector<std::uint32_t> attached(const GrowthScene& s, const std::vector<std::uint32_t>& before) {
+PageVector<std::uint32_t> attached(const GrowthScene& s, const PageVector<std::uint32_t>& before) {
   const ClusterDistanceData data{s.tile, s.features, s.clusters};
   const HistogramDistance histogram(data, s.parameters, s.scale);
   const NormalDistance normal(data, s.parameters, s.scale);
-  std::vector<std::uint32_t> after = before;
+  PageVector<std::uint32_t> after = before;
   for (std::uint32_t v = 0; v < before.size(); ++v) {
     if (before[v] != kNoCluster) continue;
     std::set<std::pair<float, std::uint32_t>> offers;
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> attached(const GrowthScene& s, const std::vector<std:
 }
 
 /// Root of every voxel without cluster: the smallest rank of its group, by spreading minima until nothing changes.
-std::map<std::uint32_t, std::uint32_t> roots(const GrowthScene& s, const std::vector<std::uint32_t>& clusters) {
+std::map<std::uint32_t, std::uint32_t> roots(const GrowthScene& s, const PageVector<std::uint32_t>& clusters) {
   std::map<std::uint32_t, std::uint32_t> root;
   for (std::uint32_t v = 0; v < clusters.size(); ++v) {
     if (clusters[v] == kNoCluster) root[v] = s.tile.ranks[v];
@@ -70,7 +70,7 @@ std::map<std::uint32_t, std::uint32_t> roots(const GrowthScene& s, const std::ve
 /// Clusters as they grew, with some voxels and whole regions taken away.
 struct Leftovers {
   GrowthScene scene;
-  std::vector<std::uint32_t> clusters;
+  PageVector<std::uint32_t> clusters;
 };
 Leftovers any_leftovers() {
   const auto kind = *rc::gen::element(Features::kNormal, Features::kFpfh).as("features");
@@ -116,7 +116,7 @@ RC_GTEST_PROP(LeftoverVoxels, CutASeedCellAndAVoxelAway_CoreStays, ()) {
   std::vector<std::uint32_t> from;
   const std::int64_t cell = s.scale.seed_steps / s.scale.voxel_steps;
   const VoxelTile part = test::part_of(s.tile, test::any_core(s.tile, random), cell + 1, from);
-  std::vector<std::uint32_t> clusters;
+  PageVector<std::uint32_t> clusters;
   for (const std::uint32_t v : from) clusters.push_back(made.clusters[v]);
   const Settled settled = settle(s, part, test::part_of(s.features, from), clusters);
   std::map<std::uint32_t, std::uint32_t> root_of;

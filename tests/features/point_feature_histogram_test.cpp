@@ -102,7 +102,7 @@ TEST(PairFeatures, CoincidentPointsAndLinesAlongTheNormal_HaveNone) {
 
 using Bins = std::array<double, kHistogramBins>;
 
-Bins literal_simplified(const VoxelTile& tile, const std::vector<std::array<float, 3>>& normals, std::uint32_t v) {
+Bins literal_simplified(const VoxelTile& tile, const PageVector<std::array<float, 3>>& normals, std::uint32_t v) {
   Bins bins{};
   const auto vector = [](const std::array<float, 3>& n) { return Vector{n[0], n[1], n[2]}; };
   double pairs = 0.0;

@@ -43,7 +43,7 @@ struct Iteration {
 
 /// One whole iteration over the tiles in this order.
 Iteration iterate(const GrowthScene& scene, const std::vector<VoxelTile>& tiles,
-                  std::vector<std::uint32_t>& clusters_of) {
+                  PageVector<std::uint32_t>& clusters_of) {
   ClusterTable table(scene.parameters);
   for (const VoxelTile& tile : tiles) table.add_seeds(tile, scene.features, seeds_of(scene, tile));
   table.fix_seeds();
@@ -83,7 +83,7 @@ GrowthScene any_scene() {
 
 RC_GTEST_PROP(ClusterTable, AnyTilesInAnyOrder_GiveTheSameBits, ()) {
   const GrowthScene scene = any_scene();
-  std::vector<std::uint32_t> clusters_of;
+  PageVector<std::uint32_t> clusters_of;
   const Iteration whole = iterate(scene, {scene.tile}, clusters_of);
   std::vector<VoxelTile> tiles = tiles_of(scene.tile, *rc::gen::inRange<std::size_t>(2, 6).as("tiles"));
   std::shuffle(tiles.begin(), tiles.end(), std::mt19937_64(scene.tile.size()));
@@ -116,7 +116,7 @@ bool near_direction(const std::array<double, 3>& sum, const std::array<float, 3>
 
 RC_GTEST_PROP(ClusterTable, AnyMembers_GiveTheirMeansAndTheNearestSeeds, ()) {
   const GrowthScene scene = any_scene();
-  std::vector<std::uint32_t> clusters_of;
+  PageVector<std::uint32_t> clusters_of;
   const Iteration found = iterate(scene, {scene.tile}, clusters_of);
   const VoxelTile& tile = scene.tile;
   ClusterTable before(scene.parameters);
@@ -172,7 +172,7 @@ RC_GTEST_PROP(ClusterTable, AnyMembers_GiveTheirMeansAndTheNearestSeeds, ()) {
 
 TEST(ClusterTable, SeedsOfAnyTiles_AreNumberedByTheirCells) {
   const VoxelTile tile = test::voxel_tile_of(10, {{0, 0, 0}, {100, 0, 0}, {200, 0, 0}, {300, 0, 0}});
-  const VoxelFeatures features{std::vector<std::array<float, 3>>(4), {}, {}};
+  const VoxelFeatures features{PageVector<std::array<float, 3>>(4, std::array<float, 3>{}), {}, {}};
   const SupervoxelParameters parameters;
   ClusterTable table(parameters);
   table.add_seeds(tile, features, std::vector<Seed>{{{5, 0, 0}, 3}, {{9, 0, 0}, 0}});
@@ -189,7 +189,7 @@ TEST(ClusterTable, VoxelsEquallyNearToTheCentre_TheSmallestRankIsTheSeed) {
   std::vector<LatticePoint> points;
   for (int i = 0; i < 8; ++i) points.push_back({10 * (i & 1), 10 * (i >> 1 & 1), 10 * (i >> 2)});
   const VoxelTile tile = test::voxel_tile_of(10, points);
-  const VoxelFeatures features{std::vector<std::array<float, 3>>(8, {0, 0, 1}), {}, {}};
+  const VoxelFeatures features{PageVector<std::array<float, 3>>(8, {0, 0, 1}), {}, {}};
   for (const bool reversed : {false, true}) {
     ClusterTable table(SupervoxelParameters{});
     table.add_seeds(tile, features, std::vector<Seed>{{{0, 0, 0}, 5}});

@@ -26,7 +26,7 @@ VoxelTile linked_tile(std::vector<LatticePoint> keys) {
   for (const LatticePoint& key : keys) index.append(key);
   index.finish();
   VoxelTile tile(VoxelGrid(1));
-  tile.keys = std::move(keys);
+  tile.keys.assign(keys.begin(), keys.end());
   link_neighbours(tile, index);
   return tile;
 }
@@ -106,7 +106,7 @@ TEST(VoxelNeighbours, EndsOfInt32_HaveNoNeighboursBeyond) {
 
 TEST(VoxelNeighbours, NoVoxels_GiveAnEmptyTable) {
   const VoxelTile tile = linked_tile({});
-  EXPECT_EQ(tile.neighbour_begin, (std::vector<std::uint32_t>{0}));
+  EXPECT_EQ(tile.neighbour_begin, (PageVector<std::uint32_t>{0}));
   EXPECT_TRUE(tile.neighbours.empty());
 }
 

@@ -53,6 +53,11 @@ class NormalDistance {
     return normal_ * bend + spatial_ * std::sqrt(squared_offset(data_.tile.positions[voxel], centre.position)) +
            colour_ * std::sqrt(squared_colour_offset(data_, voxel, cluster));
   }
+  /// What a distance of the voxel reads; colours seldom take part.
+  void prefetch(std::uint32_t voxel) const {
+    __builtin_prefetch(&data_.features.normals[voxel]);
+    __builtin_prefetch(&data_.tile.positions[voxel]);
+  }
 
  private:
   ClusterDistanceData data_;
@@ -74,6 +79,10 @@ class HistogramDistance {
     const float space = squared_offset(data_.tile.positions[voxel], data_.clusters.centres[cluster].position);
     return std::sqrt(colour_ * squared_colour_offset(data_, voxel, cluster) + spatial_ * space +
                      epsilon_ * shape * shape);
+  }
+  void prefetch(std::uint32_t voxel) const {
+    __builtin_prefetch(&data_.features.histograms[voxel]);
+    __builtin_prefetch(&data_.tile.positions[voxel]);
   }
 
  private:

@@ -25,11 +25,29 @@ std::uint32_t cluster_of(std::uint64_t state) {
   return static_cast<std::uint32_t>(state);
 }
 
+/// A state as several threads see it, and as one does: what is locked waits for memory.
+template <bool kAlone>
+struct State {
+  std::uint64_t& state;
+  std::uint64_t now() const {
+    if constexpr (kAlone) return state;
+    return std::atomic_ref(state).load(std::memory_order_relaxed);
+  }
+  /// False, and `now` anew, if another thread was faster.
+  bool change(std::uint64_t& now, std::uint64_t to) const {
+    if constexpr (!kAlone) return std::atomic_ref(state).compare_exchange_weak(now, to, std::memory_order_relaxed);
+    state = to;
+    return true;
+  }
+};
+
 template <class Distance>
 class Growth {
  public:
-  Growth(const VoxelTile& tile, const Distance& distance)
-      : tile_(tile), distance_(distance), state_(tile.size(), kFree), touched_(tile.size(), 0) {}
+  Growth(const VoxelTile& tile, const Distance& distance) : tile_(tile), distance_(distance) {
+    state_.assign(tile.size(), kFree);
+    touched_.assign(tile.size(), 0);
+  }
 
   void seed(std::span<const TileSeed> seeds) {
     for (const TileSeed& s : seeds) {
@@ -40,56 +58,85 @@ class Growth {
 
   /// One level: offers of the frontier, which then is what they won.
   void advance() {
-    std::vector<std::uint32_t> won;
-    std::mutex mutex;
-    parallel_for_chunks(frontier_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      std::vector<std::uint32_t> mine;
-      for (std::size_t i = begin; i < end; ++i) make_offers(frontier_[i], mine);
-      const std::lock_guard lock(mutex);
-      won.insert(won.end(), mine.begin(), mine.end());
-    });
+    won_.clear();
+    if (loop_threads() == 1 || frontier_.size() <= kGrain) {
+      for (std::size_t i = 0; i < frontier_.size(); ++i) make_offers<true>(i, won_);
+    } else {
+      std::mutex mutex;
+      parallel_for_chunks(frontier_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::uint32_t> mine;
+        for (std::size_t i = begin; i < end; ++i) make_offers<false>(i, mine);
+        const std::lock_guard lock(mutex);
+        won_.insert(won_.end(), mine.begin(), mine.end());
+      });
+    }
     frontier_.clear();
-    for (const std::uint32_t voxel : won) frontier_.push_back({voxel, cluster_of(state_[voxel])});
-    parallel_for_chunks(won.size(), 64 * kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) touched_[won[i]] = 0;
-    });
+    for (const std::uint32_t voxel : won_) {
+      frontier_.push_back({voxel, cluster_of(state_[voxel])});
+      touched_[voxel] = 0;
+    }
   }
 
   bool done() const { return frontier_.empty(); }
 
-  std::vector<std::uint32_t> clusters() const {
-    std::vector<std::uint32_t> result(state_.size());
+  PageVector<std::uint32_t> clusters() const {
+    PageVector<std::uint32_t> result(state_.size());
     for (std::size_t v = 0; v < result.size(); ++v) result[v] = cluster_of(state_[v]);
     return result;
   }
 
  private:
-  void make_offers(const TileSeed& from, std::vector<std::uint32_t>& won) {
+  /// The frontier jumps about in memory: what the offers of the next ones touch is fetched meanwhile.
+  void look_ahead(std::size_t i) const {
+    const std::size_t end = frontier_.size();
+    if (i + 3 * kAhead < end) __builtin_prefetch(&tile_.neighbour_begin[frontier_[i + 3 * kAhead].voxel]);
+    if (i + 2 * kAhead < end) __builtin_prefetch(tile_.neighbours_of(frontier_[i + 2 * kAhead].voxel).data());
+    if (i + kAhead >= end) return;
+    for (const std::uint32_t voxel : tile_.neighbours_of(frontier_[i + kAhead].voxel)) {
+      __builtin_prefetch(&state_[voxel], 1);
+      distance_.prefetch(voxel);
+    }
+  }
+
+  template <bool kAlone>
+  void make_offers(std::size_t i, std::vector<std::uint32_t>& won) {
+    look_ahead(i);
+    const TileSeed from = frontier_[i];
     for (const std::uint32_t voxel : tile_.neighbours_of(from.voxel)) {
-      std::atomic_ref<std::uint64_t> state(state_[voxel]);
-      std::uint64_t now = state.load(std::memory_order_relaxed);
+      const State<kAlone> state{state_[voxel]};
+      std::uint64_t now = state.now();
       if (now != kFree && cluster_of(now) == from.cluster) continue;
       const std::uint64_t mine = offer(distance_(voxel, from.cluster), from.cluster);
       while (mine < now) {
-        if (!state.compare_exchange_weak(now, mine, std::memory_order_relaxed)) continue;
-        // A voxel that changes hands twice in a level is still one of the next frontier.
-        if (std::atomic_ref<std::uint8_t>(touched_[voxel]).exchange(1, std::memory_order_relaxed) == 0)
-          won.push_back(voxel);
+        if (!state.change(now, mine)) continue;
+        if (first_touch(voxel)) won.push_back(voxel);
         break;
       }
     }
   }
 
+  /// A voxel that changes hands twice in a level is still one of the next frontier. Should two threads both be first it
+  /// is there twice, which changes nothing: an offer that is made again wins nothing.
+  bool first_touch(std::uint32_t voxel) {
+    const std::atomic_ref<std::uint8_t> touched(touched_[voxel]);
+    if (touched.load(std::memory_order_relaxed) != 0) return false;
+    touched.store(1, std::memory_order_relaxed);
+    return true;
+  }
+
+  static constexpr std::size_t kAhead = 6;
+
   const VoxelTile& tile_;
   const Distance& distance_;
-  std::vector<std::uint64_t> state_;
-  std::vector<std::uint8_t> touched_;
+  PageVector<std::uint64_t> state_;
+  PageVector<std::uint8_t> touched_;
   std::vector<TileSeed> frontier_;
+  std::vector<std::uint32_t> won_;  // At this level.
 };
 
 template <class Distance>
-std::vector<std::uint32_t> grow(const VoxelTile& tile, std::span<const TileSeed> seeds, const Distance& distance,
-                                int levels) {
+PageVector<std::uint32_t> grow(const VoxelTile& tile, std::span<const TileSeed> seeds, const Distance& distance,
+                               int levels) {
   Growth<Distance> growth(tile, distance);
   growth.seed(seeds);
   for (int level = 0; level < levels && !growth.done(); ++level) growth.advance();
@@ -98,9 +145,9 @@ std::vector<std::uint32_t> grow(const VoxelTile& tile, std::span<const TileSeed>
 
 }  // namespace
 
-std::vector<std::uint32_t> grow_clusters(const VoxelTile& tile, const VoxelFeatures& features, const Clusters& clusters,
-                                         std::span<const TileSeed> seeds, const SupervoxelParameters& parameters,
-                                         const SupervoxelScale& scale) {
+PageVector<std::uint32_t> grow_clusters(const VoxelTile& tile, const VoxelFeatures& features, const Clusters& clusters,
+                                        std::span<const TileSeed> seeds, const SupervoxelParameters& parameters,
+                                        const SupervoxelScale& scale) {
   const ClusterDistanceData data{tile, features, clusters};
   return parameters.features == SupervoxelParameters::Features::kFpfh
              ? grow(tile, seeds, HistogramDistance(data, parameters, scale), scale.levels)

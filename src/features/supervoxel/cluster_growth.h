@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/pages.h"
 #include "features/supervoxel/clusters.h"
 #include "features/supervoxel/supervoxel_parameters.h"
 #include "features/supervoxel/voxel_features.h"
@@ -26,9 +27,9 @@ struct TileSeed {
 /// order of threads can change; (2) the cluster of a voxel depends on nothing that lies more than scale.levels voxels
 /// away (Chebyshev), the features' own rings aside. O(voxels * neighbours * small factor). 9 bytes per voxel and the
 /// frontiers. Runs in parallel.
-std::vector<std::uint32_t> grow_clusters(const VoxelTile& tile, const VoxelFeatures& features, const Clusters& clusters,
-                                         std::span<const TileSeed> seeds, const SupervoxelParameters& parameters,
-                                         const SupervoxelScale& scale);
+PageVector<std::uint32_t> grow_clusters(const VoxelTile& tile, const VoxelFeatures& features, const Clusters& clusters,
+                                        std::span<const TileSeed> seeds, const SupervoxelParameters& parameters,
+                                        const SupervoxelScale& scale);
 
 /// Seeds of clusters that lie in the tile. @param by_rank  indices of all clusters in ascending order of seed_ranks.
 std::vector<TileSeed> tile_seeds(const VoxelTile& tile, const Clusters& clusters,

@@ -103,13 +103,13 @@ bool pair_features(const Float3& d, const Float3& n1, const Float3& n2, PairFeat
   return true;
 }
 
-std::vector<FeatureHistogram> feature_histograms(const VoxelTile& tile, std::span<const Float3> normals) {
-  std::vector<Simplified> simplified(tile.size());
+PageVector<FeatureHistogram> feature_histograms(const VoxelTile& tile, std::span<const Float3> normals) {
+  PageVector<Simplified> simplified(tile.size());
   parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) simplified[v] = simplified_histogram(tile, normals, v);
   });
   const float side = static_cast<float>(kVoxelFractions) * static_cast<float>(tile.grid.side_steps());
-  std::vector<FeatureHistogram> histograms(tile.size());
+  PageVector<FeatureHistogram> histograms(tile.size());
   parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       std::array<float, kHistogramBins> sums{};

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "core/pages.h"
 #include "core/voxel_tile.h"
 
 namespace arris {
@@ -28,7 +28,7 @@ bool pair_features(const std::array<float, 3>& d, const std::array<float, 3>& n1
 
 /// FPFH(v) = SPFH(v) + 1/k sum over the 26-neighbours u of SPFH(u) / |u - v|, normalised per histogram; distances in
 /// voxel sides. Depends on the normals in two rings. Runs in parallel; 36 bytes per voxel while it works.
-std::vector<FeatureHistogram> feature_histograms(const VoxelTile& tile, std::span<const std::array<float, 3>> normals);
+PageVector<FeatureHistogram> feature_histograms(const VoxelTile& tile, std::span<const std::array<float, 3>> normals);
 
 /// Distance by histogram intersection: 1 - sum of minima / total, in [0, 1].
 inline float intersection_distance(const FeatureHistogram& a, const FeatureHistogram& b) {

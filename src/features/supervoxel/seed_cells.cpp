@@ -73,6 +73,20 @@ LatticePoint seed_cell(const LatticePoint& voxel, const SupervoxelScale& scale) 
 
 namespace {
 
+/// Keys of the voxels whose middles lie in a cell.
+LatticeBox keys_of(const LatticePoint& cell, const SupervoxelScale& scale) {
+  const std::int64_t odd = scale.voxel_steps % 2;
+  const auto first = [&](std::int64_t at) {  // The smallest key that seed_cell() puts into cell `at`.
+    return -floor_divide(odd + scale.seed_steps - 2 * scale.seed_steps * at, 2 * std::int64_t{scale.voxel_steps});
+  };
+  LatticeBox keys;
+  for (int axis = 0; axis < 3; ++axis) {
+    keys.min[axis] = first(cell[axis]);
+    keys.max[axis] = first(std::int64_t{cell[axis]} + 1);
+  }
+  return keys;
+}
+
 /// A cell's best voxel.
 struct CellSeed {
   std::uint64_t distance2 = ~std::uint64_t{0};  ///< From the middle of the cell.
@@ -83,18 +97,19 @@ using CellSeeds = std::unordered_map<LatticePoint, CellSeed, CellHash>;
 
 CellSeeds best_of_cells(const VoxelTile& tile, const SupervoxelScale& scale) {
   CellSeeds cells;
-  LatticePoint last_cell;
+  LatticePoint cell;
+  LatticeBox keys;  // Of the cell.
   CellSeed* last = nullptr;
   for (std::uint32_t v = 0; v < tile.size(); ++v) {
-    const LatticePoint cell = seed_cell(tile.keys[v], scale);
-    if (last == nullptr || cell != last_cell) {
+    if (!keys.contains(tile.keys[v])) {  // In Z-order the next voxel mostly lies in the same cell.
+      cell = seed_cell(tile.keys[v], scale);
+      keys = keys_of(cell, scale);
       last = &cells[cell];
-      last_cell = cell;
     }
     const std::uint64_t distance2 = squared_from_middle(tile, v, cell, scale);
     if (distance2 < last->distance2) *last = {distance2, v, false};
   }
-  for (auto& [cell, seed] : cells) seed.supported = supported(tile, seed.voxel, scale);
+  for (auto& [of, seed] : cells) seed.supported = supported(tile, seed.voxel, scale);
   return cells;
 }
 

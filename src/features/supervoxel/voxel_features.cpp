@@ -30,14 +30,13 @@ VoxelFeatures voxel_features(const VoxelTile& tile, const SupervoxelParameters& 
 double supervoxel_bytes_per_voxel(SupervoxelParameters::Features features, bool colours, double neighbours) {
   const double kept =
       12.0 + 12.0 + 4.0 + 1.0 + 4.0 + (colours ? 6.0 : 0.0);  // Key, position, rank, core, first neighbour.
-  const double reading = kept + 36.0;
-  const double linking = kept + 3.0 + 8.0 * neighbours;  // Neighbours twice, and the tile's own index.
+  const double linking = kept + 3.0 + 4.0 * neighbours;       // And the tile's own index.
   const double described = kept + 4.0 * neighbours + 12.0 + (colours ? 12.0 : 0.0);
   const double windows = described + 28.0;
   const double growing = described + 25.0;  // State, frontier, clusters.
   const double histograms = features == SupervoxelParameters::Features::kFpfh ? 80.0 : 0.0;
   const double counting = histograms > 0.0 ? described + histograms + 34.0 : 0.0;
-  return std::max({reading, linking, windows, growing + histograms, counting});
+  return std::max({linking, windows, growing + histograms, counting});
 }
 
 }  // namespace arris

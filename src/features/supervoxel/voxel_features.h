@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
+#include "core/pages.h"
 #include "core/voxel_tile.h"
 #include "features/supervoxel/point_feature_histogram.h"
 #include "features/supervoxel/supervoxel_parameters.h"
@@ -13,9 +13,9 @@ namespace arris {
 
 /// One entry per voxel of a tile; right for voxels whose feature rings are complete.
 struct VoxelFeatures {
-  std::vector<std::array<float, 3>> normals;
-  std::vector<std::array<float, 3>> colours;  ///< RGB in 0..255 (kNormal) or CIELab (kFpfh); empty without colours.
-  std::vector<FeatureHistogram> histograms;   ///< kFpfh only.
+  PageVector<std::array<float, 3>> normals;
+  PageVector<std::array<float, 3>> colours;  ///< RGB in 0..255 (kNormal) or CIELab (kFpfh); empty without colours.
+  PageVector<FeatureHistogram> histograms;   ///< kFpfh only.
 };
 
 /// @param full_colour  raw channel value that stands for full intensity (255 or 65535).

@@ -13,7 +13,7 @@ constexpr std::size_t kGrain = 16 * 1024;
 constexpr int kWindowRings = 2;
 
 /// How badly the plane of window `u` fits voxel v: the window's own scatter and v's squared distance from it.
-float misfit(const VoxelTile& tile, const std::vector<WindowPlane>& planes, std::size_t v, std::size_t u,
+float misfit(const VoxelTile& tile, const PageVector<WindowPlane>& planes, std::size_t v, std::size_t u,
              float per_side) {
   const WindowPlane& plane = planes[u];
   const std::array<float, 3> off = centroid_offset(tile.positions[u], tile.positions[v], per_side);
@@ -23,10 +23,10 @@ float misfit(const VoxelTile& tile, const std::vector<WindowPlane>& planes, std:
 
 /// For each voxel the one, among `choice` of itself and of its neighbours, whose window fits best; ties: the first.
 /// What fits well is kept.
-std::vector<std::uint32_t> better_windows(const VoxelTile& tile, const std::vector<WindowPlane>& planes,
-                                          const std::vector<std::uint32_t>& choice) {
+PageVector<std::uint32_t> better_windows(const VoxelTile& tile, const PageVector<WindowPlane>& planes,
+                                         const PageVector<std::uint32_t>& choice) {
   const float per_side = per_voxel_side(tile);
-  std::vector<std::uint32_t> best(tile.size());
+  PageVector<std::uint32_t> best(tile.size());
   parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       best[v] = choice[v];
@@ -47,12 +47,12 @@ std::vector<std::uint32_t> better_windows(const VoxelTile& tile, const std::vect
 
 }  // namespace
 
-std::vector<std::array<float, 3>> voxel_normals(const VoxelTile& tile) {
-  const std::vector<WindowPlane> planes = window_planes(tile);
-  std::vector<std::uint32_t> choice(tile.size());
+PageVector<std::array<float, 3>> voxel_normals(const VoxelTile& tile) {
+  const PageVector<WindowPlane> planes = window_planes(tile);
+  PageVector<std::uint32_t> choice(tile.size());
   std::iota(choice.begin(), choice.end(), 0U);
   for (int ring = 0; ring < kWindowRings; ++ring) choice = better_windows(tile, planes, choice);
-  std::vector<std::array<float, 3>> normals(tile.size());
+  PageVector<std::array<float, 3>> normals(tile.size());
   for (std::size_t v = 0; v < tile.size(); ++v) normals[v] = planes[choice[v]].normal;
   return normals;
 }

@@ -2,8 +2,8 @@
 /// @file Normals of voxels.
 
 #include <array>
-#include <vector>
 
+#include "core/pages.h"
 #include "core/voxel_tile.h"
 
 namespace arris {
@@ -13,6 +13,6 @@ namespace arris {
 /// normals beside a fold are those of the surfaces that meet there, and not a mixture (the idea of Kuwahara's filter,
 /// 1976). Unit length, with n . g >= 0 for a fixed generic direction g; (0, 0, 0) where there is no plane. Depends on
 /// four rings of voxels. O(voxels * neighbours); 28 bytes per voxel while it works. Runs in parallel.
-std::vector<std::array<float, 3>> voxel_normals(const VoxelTile& tile);
+PageVector<std::array<float, 3>> voxel_normals(const VoxelTile& tile);
 
 }  // namespace arris

@@ -9,7 +9,8 @@
 namespace arris {
 namespace {
 
-constexpr std::size_t kGrain = 16 * 1024;
+/// So few that the moments of a chunk stay in the cache.
+constexpr std::size_t kGrain = 4 * 1024;
 /// A plane needs two directions: the second eigenvalue must be at least this share of the first.
 constexpr double kLeastWidth = 1e-4;
 /// A window of one ring takes the place of one of two only where its scatter is so much less: noise never makes it so.
@@ -86,7 +87,7 @@ class PlaneBatch {
  private:
   WindowPlane plane(std::size_t i) const {
     const Eigenvalues<double> values = fits_.values(i);
-    WindowPlane plane;
+    WindowPlane plane = kNoPlane;
     if (!(values.middle > kLeastWidth * values.largest) || !(values.largest > 0.0)) return plane;
     Vector3 e = fits_.direction(i);
     if (e[0] * kGeneric[0] + e[1] * kGeneric[1] + e[2] * kGeneric[2] < 0.0) e = {-e[0], -e[1], -e[2]};
@@ -105,9 +106,9 @@ class PlaneBatch {
 
 }  // namespace
 
-std::vector<WindowPlane> window_planes(const VoxelTile& tile) {
+PageVector<WindowPlane> window_planes(const VoxelTile& tile) {
   const float per_side = per_voxel_side(tile);
-  std::vector<WindowPlane> planes(tile.size());
+  PageVector<WindowPlane> planes(tile.size());
   parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     // Moments of the chunk's own rings are kept; the few others that are needed are made again, which costs less than
     // memory for all.
@@ -118,7 +119,11 @@ std::vector<WindowPlane> window_planes(const VoxelTile& tile) {
       Moments m = own[v - begin];
       for (const std::uint32_t u : tile.neighbours_of(v)) {
         const std::array<float, 3> shift = centroid_offset(tile.positions[v], tile.positions[u], per_side);
-        add_shifted(m, u >= begin && u < end ? own[u - begin] : ring_moments(tile, u, per_side), shift);
+        if (u >= begin && u < end) {
+          add_shifted(m, own[u - begin], shift);
+        } else {
+          add_shifted(m, ring_moments(tile, u, per_side), shift);
+        }
       }
       wide.add(m, planes[v]);
     }

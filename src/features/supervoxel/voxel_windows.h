@@ -3,8 +3,8 @@
 
 #include <array>
 #include <limits>
-#include <vector>
 
+#include "core/pages.h"
 #include "core/voxel_tile.h"
 
 namespace arris {
@@ -12,11 +12,11 @@ namespace arris {
 /// The least-squares plane of the centroids in a window, as seen from the centroid of its middle voxel; lengths in
 /// voxel sides.
 struct WindowPlane {
-  std::array<float, 3> normal{};  ///< Unit, with a positive component along a fixed generic direction; (0, 0, 0): none.
-  float offset = 0.0F;            ///< Of the plane along its normal.
-  /// Mean squared distance from the plane; of windows of one ring 4 times that. Infinite where there is no plane.
-  float misfit = std::numeric_limits<float>::infinity();
+  std::array<float, 3> normal;  ///< Unit, with a positive component along a fixed generic direction; (0, 0, 0): none.
+  float offset;                 ///< Of the plane along its normal.
+  float misfit;  ///< Mean squared distance from the plane; of windows of one ring 4 times that. Infinite: no plane.
 };
+constexpr WindowPlane kNoPlane{{}, 0.0F, std::numeric_limits<float>::infinity()};
 
 /// Windows that fit better than this count as flat.
 constexpr float kFlatMisfit = 0.0025F;
@@ -26,7 +26,7 @@ constexpr float kFlatMisfit = 0.0025F;
 /// better (on steps and bars that are hardly wider than a window), the window is one ring. No plane where fewer than
 /// three voxels, or a line of them, define none. Depends on two rings. Runs in parallel; 20 bytes per voxel for the
 /// result.
-std::vector<WindowPlane> window_planes(const VoxelTile& tile);
+PageVector<WindowPlane> window_planes(const VoxelTile& tile);
 
 /// From one voxel's centroid to another's, in voxel sides. @param per_side  1 / (fractions of a side).
 inline std::array<float, 3> centroid_offset(const VoxelPosition& from, const VoxelPosition& to, float per_side) {
