@@ -1,8 +1,8 @@
 /// @file The peer of arris segment: PCL's normals and region growing, everything in memory.
-/// Usage: bench_pcl_segment SCAN K ANGLE CURVATURE MIN [OUT] [--threads N]
+/// Usage: bench_pcl_segment SCAN K ANGLE CURVATURE MIN [OUT] [--normal-neighbours N] [--threads N]
 /// Settings as in pcl_region_growing.h, ANGLE in degrees. Prints points, segments, CPU and wall seconds of each stage,
 /// and the peak of resident memory. OUT (.las, .ply): every point of the scan with its SegmentId, for arris evaluate.
-/// --threads: of the normals (default 1); growth has one.
+/// --normal-neighbours: of the normals alone (default K). --threads: of the normals (default 1); growth has one.
 
 #include <pcl/console/print.h>
 
@@ -20,12 +20,13 @@ namespace {
 
 using namespace arris::bench;
 
-int run(const std::string& scan, const std::string& out, const GrowingSettings& settings, unsigned threads) {
+int run(const std::string& scan, const std::string& out, const GrowingSettings& settings, int normal_neighbours,
+        unsigned threads) {
   StageClock clock;
   const PclCloud::Ptr cloud = read_cloud(scan);
   clock.end_stage("read");
   const PclSearch::Ptr tree(new pcl::search::KdTree<pcl::PointXYZ>);
-  const PclNormals::Ptr normals = estimate_normals(cloud, tree, settings.neighbours, threads);
+  const PclNormals::Ptr normals = estimate_normals(cloud, tree, normal_neighbours, threads);
   clock.end_stage("normals");
   const std::vector<std::uint32_t> labels = grow_regions(cloud, tree, normals, settings);
   clock.end_stage("grow");
@@ -44,15 +45,19 @@ int run(const std::string& scan, const std::string& out, const GrowingSettings& 
 int main(int argc, char** argv) {
   std::vector<std::string> arguments;
   unsigned threads = 1;
+  int normal_neighbours = 0;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--threads") == 0 && i + 1 < argc) {
       threads = static_cast<unsigned>(std::atoi(argv[++i]));
+    } else if (std::strcmp(argv[i], "--normal-neighbours") == 0 && i + 1 < argc) {
+      normal_neighbours = std::atoi(argv[++i]);
     } else {
       arguments.emplace_back(argv[i]);
     }
   }
   if (arguments.size() < 5 || arguments.size() > 6) {
-    std::fprintf(stderr, "usage: bench_pcl_segment SCAN K ANGLE CURVATURE MIN [OUT] [--threads N]\n");
+    std::fprintf(stderr,
+                 "usage: bench_pcl_segment SCAN K ANGLE CURVATURE MIN [OUT] [--normal-neighbours N] [--threads N]\n");
     return 2;
   }
   GrowingSettings settings;
@@ -62,7 +67,8 @@ int main(int argc, char** argv) {
   settings.min_points = std::atoi(arguments[4].c_str());
   pcl::console::setVerbosityLevel(pcl::console::L_ERROR);
   try {
-    return run(arguments[0], arguments.size() > 5 ? arguments[5] : "", settings, threads);
+    if (normal_neighbours == 0) normal_neighbours = settings.neighbours;
+    return run(arguments[0], arguments.size() > 5 ? arguments[5] : "", settings, normal_neighbours, threads);
   } catch (const arris::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return error.exit_code();

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/error.h"
+#include "core/process_memory.h"
 #include "core/text.h"
 #include "pipeline/run_support.h"
 
@@ -14,16 +15,19 @@ namespace {
 
 /// Per stored point, at most, of tiles that are being built: spool and tile file exist together.
 constexpr double kTileFileBytesPerPoint = 24.0;
-constexpr std::uint64_t kLikelyBytesPerTile = 8 * 1024;
+constexpr std::uint64_t kLikelyBytesPerTile = 48 * 1024;
 constexpr std::uint64_t kMostBytesPerTile = 64 * 1024;
 
 /// What is resident at the peak, as against fixed_bytes and tile_bytes(), which bound it: buffers are seldom full, and
 /// tiles in flight are not all at their peak together. Measured (bench/README.md).
 std::uint64_t likely_peak_bytes(const TileJob& job) {
+  constexpr double kProgramBytes = 40e6;  // All that stays where several tiles take the room of the survey in turn.
   constexpr double kOfTile = 0.92;
   constexpr double kOfFurtherTiles = 0.6;
-  constexpr double kGatherBytes = 100e6;  // Results of a million points, records and buffers while outputs are written.
-  constexpr double kGatherPoints = 1e6;
+  constexpr double kGatherBytes =
+      87e6;  // Results of a few million points, records and buffers while outputs are written.
+  constexpr double kGatherPoints = 3e6;
+  constexpr double kOfPeakSoFar = 1.05;
   std::vector<std::uint64_t> points;
   for (const tiling::PlannedTile& tile : job.tiles.tiles) points.push_back(tile.covered_points);
   const std::size_t most = std::min(points.size(), static_cast<std::size_t>(job.memory.tile_workers));
@@ -32,8 +36,11 @@ std::uint64_t likely_peak_bytes(const TileJob& job) {
   for (std::size_t i = 0; i < most; ++i)
     tiles += (i == 0 ? 1.0 : kOfFurtherTiles) * kOfTile * static_cast<double>(job.memory.tile_bytes(points[i]));
   const double gather = kGatherBytes * std::min(1.0, static_cast<double>(job.survey.points()) / kGatherPoints);
-  return job.memory.resident_bytes + job.memory_request.kept_bytes +
-         static_cast<std::uint64_t>(std::max(tiles, gather));
+  const double stays = points.size() > 1
+                           ? std::min(kProgramBytes, static_cast<double>(job.memory.resident_bytes))
+                           : static_cast<double>(std::max(job.memory.resident_bytes, arris::resident_bytes()));
+  const double peak = stays + static_cast<double>(job.memory_request.kept_bytes) + std::max(tiles, gather);
+  return static_cast<std::uint64_t>(std::max(peak, kOfPeakSoFar * static_cast<double>(peak_resident_bytes())));
 }
 
 }  // namespace

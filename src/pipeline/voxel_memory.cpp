@@ -88,7 +88,7 @@ std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const Sup
   const double voxels = likely_voxels(survey, scale);
   const bool runs = voxels * kTableEntryBytes > static_cast<double>(memory.table_bytes());
   const double each = kStoreBytes + (runs ? kRunEntries * sizeof(tiling::VoxelSums) : 0.0);
-  return static_cast<std::uint64_t>(voxels * each) + kMiB;
+  return static_cast<std::uint64_t>(voxels * each);
 }
 
 }  // namespace arris::pipeline

@@ -1,0 +1,52 @@
+"""What is run: commands of arris and their peers, by task. Whoever labels points writes the labelled cloud."""
+
+import os
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Job:
+    task: str
+    name: str
+    command: list
+    peer: bool = True
+    environment: dict = field(default_factory=dict)
+
+    @property
+    def available(self):
+        return all(os.path.exists(part) for part in self.command[:1] + self.command[1:2] if part.startswith("/"))
+
+
+def jobs_for(cloud, places, settings):
+    """@param cloud  has path and spacing. @param places  has bin, work and here."""
+    threads = str(settings.threads)
+    out = os.path.join(places.work, "out.las")
+
+    def arris(task, *options):
+        verb, *more = options
+        command = [os.path.join(places.bin, "arris"), verb, cloud.path, "-o", out, "--overwrite", "-q", *more]
+        command += ["--threads", threads, "--memory", settings.memory, "--temp-dir", places.temp]
+        command += ["--report", os.path.join(places.work, "report.json")]
+        return Job(task, "arris " + " ".join(options), command, peer=False)
+
+    def peer(task, name, program, *arguments, **environment):
+        return Job(task, name, [os.path.join(places.bin, program), cloud.path, *arguments], environment=environment)
+
+    radius = f"{12.0 * cloud.spacing:.6g}"
+    open3d = [os.path.join(places.here, "open3d_boundary.py"), cloud.path, radius]
+    return [
+        arris("contours", "extract", "--method", "arris"),
+        arris("contours", "extract", "--method", "liu"),
+        arris("contours", "extract", "--method", "zheng"),
+        peer("contours", "PCL normals (16) + boundary (30)", "bench_pcl_peer", threads),
+        Job("contours", "Open3D normals (16) + boundary (30)", ["/usr/bin/python3", *open3d],
+            environment={"OMP_NUM_THREADS": threads}),
+        arris("segments", "segment", "-k", "30"),
+        arris("segments", "segment"),
+        peer("segments", "PCL normals (16) + region growing (30)", "bench_pcl_segment", "30", "7.2", "0.2", "20",
+             out, "--normal-neighbours", "16", "--threads", threads),
+        peer("segments", "CGAL normals (16) + region growing (30)", "bench_cgal_segment", "16", "30", "7.2",
+             f"{cloud.spacing:.6g}", "20"),
+        arris("supervoxels", "supervoxel", "--voxel", "0.03", "--seed", "0.4"),
+        peer("supervoxels", "PCL supervoxels", "bench_pcl_supervoxel", "0.03", "0.4", out),
+    ]
