@@ -1,0 +1,72 @@
+/// @file The streaming passes alone: survey, partition and tile files while points are routed, and reading them back.
+/// Usage: tile_speed FOLDER TILE_POINTS HALO INPUT...     HALO in data units; the folder must exist and be empty
+/// One thread. Prints CPU and wall seconds of each pass and points per second of the input.
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include "core/error.h"
+#include "stage_clock.h"
+#include "tiling/partition.h"
+#include "tiling/survey.h"
+#include "tiling/tile_plan.h"
+#include "tiling/tile_store.h"
+
+namespace {
+
+using namespace arris;
+
+class Silent : public ProgressSink {
+  void phase(std::string_view, std::uint64_t) override {}
+  void advance(std::uint64_t) override {}
+  void warning(std::string_view, std::string_view) override {}
+  void note(std::string_view) override {}
+};
+
+int run(const std::filesystem::path& folder, std::uint64_t tile_points, double halo,
+        const std::vector<std::filesystem::path>& paths) {
+  io::InputSet inputs(paths);
+  Silent silent;
+  bench::StageClock clock;
+  const double cpu_begin = bench::cpu_seconds();
+  const tiling::Survey survey = tiling::survey_inputs(inputs, {}, silent, CancelToken());
+  clock.end_stage("survey");
+  tiling::PlanRequest request;
+  request.max_points = tile_points;
+  request.max_radius = halo;
+  request.halo = [&](double) { return halo; };
+  const tiling::TilePlan plan = tiling::plan_tiles(survey, request);
+  tiling::TileStore store(folder, survey.lattice, plan, "");
+  tiling::partition_points(
+      inputs, survey, plan, {folder}, [&](std::size_t tile) { store.build(tile); }, silent, CancelToken());
+  clock.end_stage("partition");
+  const double cpu = bench::cpu_seconds() - cpu_begin;
+  std::size_t loaded = 0;
+  for (std::size_t tile = 0; tile < plan.tiles.size(); ++tile) loaded += store.load(tile).positions.size();
+  clock.end_stage("load");
+  const auto millions = 1e-6 * static_cast<double>(survey.points());
+  fmt::print(
+      "points {}, tiles {}, stored {} ({:.2f} copies), {:.1f} bytes each on disk; survey, partition and tile files: "
+      "{:.1f} M points per CPU s\n",
+      survey.points(), plan.tiles.size(), loaded, 1e-6 * static_cast<double>(loaded) / millions,
+      static_cast<double>(store.bytes_on_disk()) / static_cast<double>(loaded), millions / cpu);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 5) {
+    std::fprintf(stderr, "usage: tile_speed FOLDER TILE_POINTS HALO INPUT...\n");
+    return 2;
+  }
+  try {
+    return run(argv[1], std::strtoull(argv[2], nullptr, 10), std::atof(argv[3]), {argv + 4, argv + argc});
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return error.exit_code();
+  }
+}
