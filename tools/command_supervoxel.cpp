@@ -9,16 +9,13 @@
 #include "commands.h"
 #include "core/text.h"
 #include "pipeline/supervoxel.h"
-#include "run_options.h"
-#include "supervoxel_options.h"
+#include "supervoxel_job_options.h"
 
 namespace arris::tools {
 namespace {
 
 struct SupervoxelCommand {
-  RunOptions run;
-  SupervoxelOptions supervoxel;
-  std::string spacing;
+  SupervoxelJobOptions job;
   std::vector<std::string> outputs;
   std::string table;
   std::string adjacency;
@@ -46,20 +43,17 @@ std::string describe_supervoxels(const pipeline::SupervoxelReport& r, const std:
 }
 
 int run_supervoxel(SupervoxelCommand& o, Session& session) {
-  pipeline::SupervoxelRequest request;
-  fill_run_request(o.run, request);
+  pipeline::SupervoxelRequest request = to_request(o.job);
   request.outputs.assign(o.outputs.begin(), o.outputs.end());
   request.overwrite = o.overwrite;
   request.mixed_crs = o.mixed_crs;
   request.hash_inputs = !o.report.empty();
-  request.parameters = to_parameters(o.supervoxel);
-  request.spacing = length_or(o.spacing, 0.0);
   request.table = o.table;
   request.adjacency = o.adjacency;
-  ProgressDisplay display(o.run.display.mode(), o.run.display.verbosity());
+  ProgressDisplay display(o.job.run.display.mode(), o.job.run.display.verbosity());
   const pipeline::SupervoxelReport report = pipeline::label_supervoxels(request, display, session.cancel);
   display.finish();
-  display.note(describe_supervoxels(report, o.run.memory_why));
+  display.note(describe_supervoxels(report, o.job.run.memory_why));
   if (!o.report.empty()) write_text(o.report, to_json(report).dump(2) + "\n", o.overwrite);
   return 0;
 }
@@ -69,7 +63,7 @@ int run_supervoxel(SupervoxelCommand& o, Session& session) {
 void add_supervoxel(CLI::App& app, Session& session) {
   auto options = std::make_shared<SupervoxelCommand>();
   CLI::App* verb = app.add_subcommand("supervoxel", "Supervoxels: every point gets the id of the one it belongs to");
-  add_run_options(*verb, options->run);
+  add_supervoxel_job_options(*verb, options->job);
   verb->add_option("-o,--output", options->outputs, "Output, .las or .ply; may be given several times")
       ->required()
       ->take_all();
@@ -79,8 +73,6 @@ void add_supervoxel(CLI::App& app, Session& session) {
   verb->add_flag("--overwrite", options->overwrite, "Replace existing outputs");
   verb->add_flag("--mixed-crs", options->mixed_crs,
                  "Allow inputs with different coordinate reference systems in one output");
-  verb->add_option("--spacing", options->spacing, "Point spacing (length; default: estimated)");
-  add_supervoxel_options(*verb, options->supervoxel, "Supervoxels");
   verb->callback(
       [options, &session] { session.run = [options, &session] { return run_supervoxel(*options, session); }; });
 }

@@ -17,6 +17,48 @@
 #include "pipeline/voxel_memory.h"
 
 namespace arris::pipeline {
+namespace {
+
+struct SurveyedScan {
+  tiling::Survey survey;
+  SupervoxelScale scale;
+};
+
+/// Pass 1, and what it tells of the work and its disk.
+SurveyedScan survey_scan(io::InputSet& inputs, const SupervoxelRequest& request, ProblemWarnings& problems,
+                         SupervoxelReport& report, ProgressSink& progress, const CancelToken& cancel) {
+  SurveyedScan scan{tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel), {}};
+  problems.forward();
+  refuse_missing_classes(request, scan.survey);
+  describe_inputs(scan.survey, inputs, request, report);
+  warn_of_dropped(report, progress);
+  const double spacing = request.spacing > 0.0 ? request.spacing : scan.survey.spacing;
+  scan.scale = resolve_scale(report.parameters, spacing, scan.survey.lattice);
+  report.predicted_temp_bytes = predicted_voxel_temp_bytes(scan.survey, scan.scale, VoxelMemory(request.memory_bytes));
+  check_temp_space(report.predicted_temp_bytes, request, progress);
+  return scan;
+}
+
+}  // namespace
+
+SupervoxelReport plan_supervoxels(const SupervoxelRequest& request, ProgressSink& progress, const CancelToken& cancel) {
+  SupervoxelReport report;
+  report.parameters = request.parameters;
+  validate(report.parameters);
+  RecordingSink sink(progress, report);
+  Stopwatch watch(report);
+  io::InputSet inputs(io::expand_inputs(request.inputs), request.tolerance);
+  ProblemWarnings problems(inputs, sink);
+  problems.forward();
+  inputs.exclude(request.exclusion);
+  const SurveyedScan scan = survey_scan(inputs, request, problems, report, sink, cancel);
+  watch.lap("survey");
+  report.voxels = likely_voxels(scan.survey, scan.scale);
+  report.predicted_peak_bytes =
+      predicted_supervoxel_bytes(scan.survey, scan.scale, report.parameters, request.memory_bytes);
+  report.peak_resident_bytes = peak_resident_bytes();
+  return report;
+}
 
 SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSink& progress,
                                    const CancelToken& cancel) {
@@ -41,15 +83,7 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   inputs.exclude(request.exclusion);
   const ThreadLimit limit(request.threads);
 
-  const tiling::Survey survey = tiling::survey_inputs(inputs, {request.lattice_step}, sink, cancel);
-  problems.forward();
-  refuse_missing_classes(request, survey);
-  describe_inputs(survey, inputs, request, report);
-  warn_of_dropped(report, sink);
-  const double spacing = request.spacing > 0.0 ? request.spacing : survey.spacing;
-  const SupervoxelScale scale = resolve_scale(report.parameters, spacing, survey.lattice);
-  report.predicted_temp_bytes = predicted_voxel_temp_bytes(survey, scale, VoxelMemory(request.memory_bytes));
-  check_temp_space(report.predicted_temp_bytes, request, sink);
+  const auto [survey, scale] = survey_scan(inputs, request, problems, report, sink, cancel);
   watch.lap("survey");
 
   const RunFolder folder(request.temp_dir);

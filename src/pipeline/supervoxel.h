@@ -37,6 +37,10 @@ struct SupervoxelReport : RunReport {
 /// whole or not at all; temporary files are gone when this returns or throws. Throws the errors of core/error.h.
 SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSink& progress, const CancelToken& cancel);
 
+/// Survey only: parameters, and the voxels, memory and temporary files that are likely (without colours; real files
+/// whose neighbours in space are neighbours in the file). Outputs of the request are not looked at.
+SupervoxelReport plan_supervoxels(const SupervoxelRequest& request, ProgressSink& progress, const CancelToken& cancel);
+
 nlohmann::ordered_json to_json(const SupervoxelReport& report);
 nlohmann::ordered_json supervoxel_json(const SupervoxelParameters& parameters);
 

@@ -9,6 +9,7 @@
 #include "core/process_memory.h"
 #include "core/text.h"
 #include "core/voxel.h"
+#include "features/supervoxel/voxel_features.h"
 #include "tiling/voxel_order.h"
 #include "tiling/voxel_sums.h"
 
@@ -39,7 +40,7 @@ constexpr double kSupervoxelBytes = 260.0;
 
 /// From the counts of the survey: the points of a cell fill what voxels a surface through it crosses. Within a tenth on
 /// towns of any density, 0.8 of what there is where voxels are as large as the survey's cells.
-double likely_voxels(const tiling::Survey& survey, const SupervoxelScale& scale) {
+double count_of_voxels(const tiling::Survey& survey, const SupervoxelScale& scale) {
   constexpr double kTilted = 1.3;  // More than a flat surface crosses. Measured.
   const double sides = std::ldexp(1.0, survey.counts.level()) / scale.voxel_steps;  // Voxels along a cell.
   const double flat = 0.5 * (1.0 + sides * sides);  // A cell is seldom crossed from side to side.
@@ -77,15 +78,31 @@ std::uint64_t VoxelMemory::predicted_peak_bytes(std::uint64_t stage_bytes) const
   return std::max(peak_before_stage_bytes_, before_stage_bytes_ + std::max(kPassBytes, stage_bytes));
 }
 
+std::uint64_t likely_voxels(const tiling::Survey& survey, const SupervoxelScale& scale) {
+  return static_cast<std::uint64_t>(count_of_voxels(survey, scale));
+}
+
+std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+                                         const SupervoxelParameters& parameters, std::uint64_t budget_bytes) {
+  constexpr double kNeighbours = 12.0;  // Of a voxel of a surface.
+  constexpr double kOfVoxels = 0.85;    // The steps that take most are not all at their peak together. Measured.
+  constexpr double kOfBudget = 0.75;    // What is in tiles is not all there at once.
+  const double voxels = count_of_voxels(survey, scale);
+  const double each = supervoxel_bytes_per_voxel(parameters.features, false, kNeighbours);
+  const double all =
+      static_cast<double>(resident_bytes() + predicted_scene_bytes(survey, scale)) + kOfVoxels * each * voxels;
+  return static_cast<std::uint64_t>(std::min(all, kOfBudget * static_cast<double>(budget_bytes)));
+}
+
 std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const SupervoxelScale& scale) {
   const double cells = static_cast<double>(scale.seed_steps) / scale.voxel_steps;
   const double each = kIndexBytes + kVoxelsPerFace * kSupervoxelBytes / (cells * cells);
-  return static_cast<std::uint64_t>(likely_voxels(survey, scale) * each);
+  return static_cast<std::uint64_t>(count_of_voxels(survey, scale) * each);
 }
 
 std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
                                          const VoxelMemory& memory) {
-  const double voxels = likely_voxels(survey, scale);
+  const double voxels = count_of_voxels(survey, scale);
   const bool runs = voxels * kTableEntryBytes > static_cast<double>(memory.table_bytes());
   const double each = kStoreBytes + (runs ? kRunEntries * sizeof(tiling::VoxelSums) : 0.0);
   return static_cast<std::uint64_t>(voxels * each);

@@ -30,11 +30,17 @@ class VoxelMemory {
   mutable std::uint64_t peak_before_stage_bytes_ = 0;
 };
 
-/// What a SupervoxelScene and its table keep in memory; for plans, before the voxels are known.
+/// About as many as there will be; for plans, before the voxels are known, as all below.
+std::uint64_t likely_voxels(const tiling::Survey& survey, const SupervoxelScale& scale);
+
+/// Peak of a run that writes labels only, without colours. @param budget_bytes  what does not fit is done in tiles.
+std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+                                         const SupervoxelParameters& parameters, std::uint64_t budget_bytes);
+
+/// What a SupervoxelScene and its table keep in memory.
 std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const SupervoxelScale& scale);
 
-/// Runs and store of the voxels, without colours, for inputs whose neighbours in space are neighbours in the file; for
-/// plans, before the voxels are known.
+/// Runs and store of the voxels, without colours, for inputs whose neighbours in space are neighbours in the file.
 std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
                                          const VoxelMemory& memory);
 

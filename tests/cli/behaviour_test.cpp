@@ -200,6 +200,9 @@ TEST(Behaviour, PlanPrintsAndTouchesNothing) {
   ASSERT_EQ(segments.exit_code, 0) << segments.err;
   EXPECT_EQ(nlohmann::json::parse(segments.out)["parameters"]["neighbours"], 12);
   EXPECT_EQ(entries(folder.path()), 1U);
+  const ProcessResult supervoxels = run_arris({"plan", "supervoxel", folder / "in.las", "--json"});
+  EXPECT_EQ(supervoxels.exit_code, 0) << supervoxels.err;
+  EXPECT_GT(nlohmann::json::parse(supervoxels.out)["voxels"], 0);
   EXPECT_EQ(run_arris({"plan"}).exit_code, 2);
 }
 
