@@ -78,7 +78,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   if (usable < plan.fixed_bytes + plan.tile_bytes(kLeastTilePoints)) {
     throw BudgetError(fmt::format("--memory {} is too small: this run needs at least {}",
                                   human_bytes(request.budget_bytes),
-                                  human_bytes(least_budget_bytes(kLeastTilePoints, request))));
+                                  budget_text(least_budget_bytes(kLeastTilePoints, request))));
   }
   plan.tiles_bytes = usable - plan.fixed_bytes;
   plan.tile_workers = request.threads;

@@ -59,7 +59,7 @@ VoxelMemory::VoxelMemory(std::uint64_t budget_bytes)
   if (usable_bytes_ < fixed + kLeastTableBytes) {
     throw BudgetError(
         fmt::format("--memory {} is too small: this run needs at least {}", human_bytes(budget_bytes),
-                    human_bytes(static_cast<std::uint64_t>(static_cast<double>(fixed + kLeastTableBytes) / kSafety) +
+                    budget_text(static_cast<std::uint64_t>(static_cast<double>(fixed + kLeastTableBytes) / kSafety) +
                                 kSpareBytes)));
   }
   table_bytes_ = std::clamp((usable_bytes_ - fixed) / 2, kLeastTableBytes, kMostTableBytes);
