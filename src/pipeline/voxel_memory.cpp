@@ -77,6 +77,10 @@ std::uint64_t VoxelMemory::predicted_peak_bytes(std::uint64_t stage_bytes) const
   return std::max(peak_before_stage_bytes_, before_stage_bytes_ + std::max(kPassBytes, stage_bytes));
 }
 
+std::uint64_t raised_budget_bytes(std::uint64_t budget_bytes, std::uint64_t more_bytes) {
+  return budget_bytes + static_cast<std::uint64_t>(static_cast<double>(more_bytes) / kSafety) + kSpareBytes;
+}
+
 std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const SupervoxelScale& scale) {
   const double cells = static_cast<double>(scale.seed_steps) / scale.voxel_steps;
   const double each = kIndexBytes + kVoxelsPerFace * kSupervoxelBytes / (cells * cells);

@@ -30,6 +30,9 @@ class VoxelMemory {
   mutable std::uint64_t peak_before_stage_bytes_ = 0;
 };
 
+/// The budget that leaves so much more than this one.
+std::uint64_t raised_budget_bytes(std::uint64_t budget_bytes, std::uint64_t more_bytes);
+
 /// What a SupervoxelScene and its table keep in memory; for plans, before the voxels are known.
 std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const SupervoxelScale& scale);
 

@@ -24,6 +24,7 @@ struct TileWalkRequest {
   SupervoxelScale scale;
   bool colours = false;
   std::uint64_t memory_bytes = 0;     ///< For tiles and what the caller keeps beside them.
+  std::uint64_t budget_bytes = 0;     ///< --memory, of which that is left.
   std::uint64_t tile_voxels_cap = 0;  ///< 0: none.
 };
 
