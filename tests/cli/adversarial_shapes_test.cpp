@@ -12,7 +12,7 @@
 namespace arris::test {
 namespace {
 
-constexpr std::uint32_t kPoints = 60'000;
+constexpr std::uint32_t kPoints = 50'000;
 
 /// Name of the shape, index of the command.
 class EveryShape : public testing::TestWithParam<std::tuple<AdversarialShape, AdversarialCommand>> {};
@@ -24,7 +24,7 @@ TEST_P(EveryShape, InTwoCuts_KeepsTheBudgetAndGivesTheSameBytes) {
   const auto inputs = shape.write(folder.path(), kPoints);
   const auto whole = folder / "whole.las", cut = folder / "cut.las";
   const bool done = run_within_budget(inputs, command, {.threads = 1}, kPoints, whole);
-  ASSERT_EQ(run_within_budget(inputs, command, {.threads = 2, .tile_points = "3000"}, kPoints, cut), done);
+  ASSERT_EQ(run_within_budget(inputs, command, {.threads = 2, .tile_points = "8000"}, kPoints, cut), done);
   if (done) {
     EXPECT_TRUE(file_bytes(whole) == file_bytes(cut)) << "tiles change the output";
   }
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Adversarial, EveryShape,
 /// Tiles of one point each.
 TEST(Adversarial, TilesOfOnePoint_GiveTheSameBytes) {
   ARRIS_SKIP_UNDER_SANITIZERS;
-  constexpr std::uint32_t kFewPoints = 1500;
+  constexpr std::uint32_t kFewPoints = 400;
   const TempFolder folder;
   const auto inputs = adversarial_shape("lone_points").write(folder.path(), kFewPoints);
   for (const AdversarialCommand& command : adversarial_commands()) {
