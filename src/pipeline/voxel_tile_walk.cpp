@@ -47,7 +47,7 @@ void VoxelTileWalk::plan(std::uint64_t kept_bytes) {
 }
 
 void VoxelTileWalk::require(std::uint64_t bytes) const {
-  if (bytes <= request_.memory_bytes) return;
+  if (fits(bytes)) return;
   throw BudgetError(fmt::format(
       "{} voxels and their supervoxels do not fit; run with at least --memory {}, or with larger --voxel or --seed",
       grouped(store_.size()), budget_text(raised_budget_bytes(request_.budget_bytes, bytes - request_.memory_bytes))));

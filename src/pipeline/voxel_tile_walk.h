@@ -40,8 +40,7 @@ class VoxelTileWalk {
 
   /// Cuts tiles (again). @param kept_bytes  what the caller keeps. Throws BudgetError if that and a tile do not fit.
   void plan(std::uint64_t kept_bytes);
-  /// Throws BudgetError if so much does not fit.
-  void require(std::uint64_t bytes) const;
+  bool fits(std::uint64_t bytes) const { return bytes <= request_.memory_bytes; }
   const tiling::TilePlan& tiles() const { return plan_; }
   std::uint64_t predicted_bytes() const { return predicted_bytes_; }
   std::uint64_t largest_tile_voxels() const;
@@ -53,6 +52,9 @@ class VoxelTileWalk {
   std::uint64_t drop_features();
 
  private:
+  /// Throws BudgetError if so much does not fit.
+  void require(std::uint64_t bytes) const;
+
   const tiling::VoxelStore& store_;
   TileWalkRequest request_;
   ProgressSink& progress_;
