@@ -16,7 +16,7 @@ SupervoxelScene make_supervoxel_scene(io::InputSet& inputs, const tiling::Survey
                                             memory, request.threads, progress, cancel);
   release_free_memory();
   const SupervoxelStageRequest stage{{request.parameters, request.scale, voxels.colours, memory.stage_bytes(),
-                                      request.memory_bytes, request.tile_voxels_cap},
+                                      request.tile_voxels_cap, request.memory_bytes},
                                      request.adjacency,
                                      request.folder};
   SupervoxelStageResult clusters = run_supervoxel_stage(voxels.store, stage, progress, cancel);

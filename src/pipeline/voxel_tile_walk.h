@@ -24,8 +24,8 @@ struct TileWalkRequest {
   SupervoxelScale scale;
   bool colours = false;
   std::uint64_t memory_bytes = 0;     ///< For tiles and what the caller keeps beside them.
-  std::uint64_t budget_bytes = 0;     ///< --memory, of which that is left.
   std::uint64_t tile_voxels_cap = 0;  ///< 0: none.
+  std::uint64_t budget_bytes = 0;     ///< --memory, of which memory_bytes are left; for messages.
 };
 
 /// One tile at a time is in memory; a lone one stays there between walks. Not thread-safe.
