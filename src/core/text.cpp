@@ -35,4 +35,9 @@ std::string human_bytes(std::uint64_t size_bytes) {
   return unit == 0 ? fmt::format("{} B", size_bytes) : fmt::format("{:.1f} {}", value, kUnits[unit]);
 }
 
+std::string budget_text(std::uint64_t size_bytes) {
+  constexpr std::uint64_t kMiB = 1024 * 1024;
+  return fmt::format("{}MiB", (size_bytes + kMiB - 1) / kMiB);
+}
+
 }  // namespace arris

@@ -16,4 +16,7 @@ std::string grouped(std::uint64_t number);
 /// "1.5 GiB", "12.0 MiB", "300 B".
 std::string human_bytes(std::uint64_t size_bytes);
 
+/// "2459MiB": a budget no smaller than this, as options take it.
+std::string budget_text(std::uint64_t size_bytes);
+
 }  // namespace arris

@@ -60,13 +60,15 @@ class Clustering {
   void find_all_seeds(std::uint64_t kept_bytes) {
     progress_.phase("seeds", walk_.store().size());
     std::uint64_t seeds = 0;
+    bool fit = true;
     walk_.for_each(true, [&](const LoadedTile& tile) {
       const std::vector<Seed> found = find_seeds(tile.voxels, scale_);
       seeds += found.size();
-      // Before they take the memory, not after.
-      walk_.require(kept_bytes + seeds * cluster_bytes());
-      table_.add_seeds(tile.voxels, tile.features, found);
+      // Before they take the memory, not after. Those that do not fit are counted, to say what would do.
+      fit = fit && walk_.fits(kept_bytes + seeds * cluster_bytes());
+      if (fit) table_.add_seeds(tile.voxels, tile.features, found);
     });
+    if (!fit) walk_.plan(kept_bytes + seeds * cluster_bytes());
     table_.fix_seeds();
   }
 

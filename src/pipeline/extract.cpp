@@ -84,7 +84,7 @@ ExtractReport plan_only(const ExtractRequest& request, ProgressSink& progress, c
     plan.memory_request.kept_bytes = predicted_scene_bytes(plan.survey, plan.scale);
     plan.memory = plan_memory(plan.memory_request);
   }
-  plan_job_tiles(plan, request, sink);
+  plan_job_tiles(plan, inputs, request, sink, cancel);
   describe_plan(plan, inputs, request, report);
   warn_of_dropped(report, sink);
   watch.lap("survey");
@@ -121,7 +121,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     plan.voxel_temp_bytes = labelled->scene.store.bytes_on_disk();
     watch.lap("supervoxels");
   }
-  plan_job_tiles(plan, request, sink);
+  plan_job_tiles(plan, inputs, request, sink, cancel);
   describe_plan(plan, inputs, request, report);
   warn_of_dropped(report, sink);
   if (labelled) {

@@ -46,7 +46,8 @@ JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, Progress
   return plan;
 }
 
-void plan_job_tiles(JobPlan& plan, const ExtractRequest& request, ProgressSink& progress) {
+void plan_job_tiles(JobPlan& plan, io::InputSet& inputs, const ExtractRequest& request, ProgressSink& progress,
+                    const CancelToken& cancel) {
   TileNeeds needs;
   needs.halo = [&](double spacing) { return contour_halo(plan.method, spacing); };
   needs.max_radius = plan.method.max_radius();
@@ -58,7 +59,7 @@ void plan_job_tiles(JobPlan& plan, const ExtractRequest& request, ProgressSink& 
     needs.likely_result_bytes_per_point = kZhengResultBytesPerPoint;
     needs.further_temp_bytes = plan.voxel_temp_bytes;
   }
-  plan_tiles_of(plan, needs, request, progress);
+  plan_tiles_of(plan, needs, inputs, request, progress, cancel);
 }
 
 void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const ExtractRequest& request,

@@ -26,7 +26,8 @@ JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, Progress
                    const CancelToken& cancel);
 
 /// Tiles of points, from plan.memory. Throws BudgetError if memory or disk cannot do.
-void plan_job_tiles(JobPlan& plan, const ExtractRequest& request, ProgressSink& progress);
+void plan_job_tiles(JobPlan& plan, io::InputSet& inputs, const ExtractRequest& request, ProgressSink& progress,
+                    const CancelToken& cancel);
 
 /// Copies what a plan decided into a report.
 void describe_plan(const JobPlan& plan, const io::InputSet& inputs, const ExtractRequest& request,

@@ -57,9 +57,15 @@ std::uint64_t MemoryPlan::widen_bytes() const {
 }
 
 std::uint64_t least_budget_bytes(std::uint64_t points, const MemoryRequest& request) {
-  const std::uint64_t needed =
-      fixed_bytes(request, resident_bytes(), kLeastSpoolBytes) + bytes_of_tile(points, request.method);
-  return static_cast<std::uint64_t>(static_cast<double>(needed) / kSafety) + kSpareBytes;
+  const std::uint64_t resident = resident_bytes();
+  std::uint64_t spool = kLeastSpoolBytes;
+  for (;;) {
+    const std::uint64_t needed = fixed_bytes(request, resident, spool) + bytes_of_tile(points, request.method);
+    const auto budget = static_cast<std::uint64_t>(static_cast<double>(needed) / kSafety) + kSpareBytes;
+    // A larger budget has larger buffers, unless it could not do otherwise (plan_memory), until they no longer grow.
+    if (points <= kLeastTilePoints || spool_buffer_bytes(budget) <= spool) return budget;
+    spool = spool_buffer_bytes(budget);
+  }
 }
 
 MemoryPlan plan_memory(const MemoryRequest& request) {
@@ -78,7 +84,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   if (usable < plan.fixed_bytes + plan.tile_bytes(kLeastTilePoints)) {
     throw BudgetError(fmt::format("--memory {} is too small: this run needs at least {}",
                                   human_bytes(request.budget_bytes),
-                                  human_bytes(least_budget_bytes(kLeastTilePoints, request))));
+                                  budget_text(least_budget_bytes(kLeastTilePoints, request))));
   }
   plan.tiles_bytes = usable - plan.fixed_bytes;
   plan.tile_workers = request.threads;

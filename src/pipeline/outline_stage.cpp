@@ -15,7 +15,8 @@
 namespace arris::pipeline {
 namespace {
 
-void plan(TileJob& job, const OutlineSetup& setup, ProgressSink& progress) {
+void plan(io::InputSet& inputs, TileJob& job, const OutlineSetup& setup, ProgressSink& progress,
+          const CancelToken& cancel) {
   const double halo = segment_contour_halo(setup.parameters, setup.segments.planes, job.survey.lattice);
   // Labels and planes are resident by now.
   job.memory_request.kept_bytes = 0;
@@ -26,14 +27,14 @@ void plan(TileJob& job, const OutlineSetup& setup, ProgressSink& progress) {
   needs.halo = [halo](double) { return halo; };
   needs.max_radius = std::max(halo, job.survey.lattice.step);
   needs.whole_halo = true;
-  plan_tiles_of(job, needs, setup.request, progress);
+  plan_tiles_of(job, needs, inputs, setup.request, progress, cancel);
 }
 
 }  // namespace
 
 OutlineResult outline_segments(io::InputSet& inputs, TileJob& job, const OutlineSetup& setup,
                                merge::ResultSpool& results, ProgressSink& progress, const CancelToken& cancel) {
-  plan(job, setup, progress);
+  plan(inputs, job, setup, progress, cancel);
   std::mutex mutex;  // Guards `edges`.
   std::vector<OutlineEdge> edges;
   const TileAnalysis analysis = [&](const TilePoints& points, std::optional<std::span<const PlacedQuery>>) {

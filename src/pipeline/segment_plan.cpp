@@ -23,8 +23,8 @@ std::uint64_t kept_bytes(std::uint64_t points) {
   return static_cast<std::uint64_t>(per_point * static_cast<double>(points));
 }
 
-TileJob plan_job(tiling::Survey survey, const SegmentRequest& request, SegmentParameters& parameters,
-                 std::uint64_t kept, ProgressSink& progress) {
+TileJob plan_job(io::InputSet& inputs, tiling::Survey survey, const SegmentRequest& request,
+                 SegmentParameters& parameters, std::uint64_t kept, ProgressSink& progress, const CancelToken& cancel) {
   TileJob job;
   job.survey = std::move(survey);
   job.memory_request = {
@@ -38,7 +38,7 @@ TileJob plan_job(tiling::Survey survey, const SegmentRequest& request, SegmentPa
   const double frontier_bytes = 4.0 * static_cast<double>(4 + parameters.most_neighbours());
   needs.likely_result_bytes_per_point = 0.06 * frontier_bytes;
   needs.most_result_bytes_per_point = 0.5 * frontier_bytes;
-  plan_tiles_of(job, needs, request, progress);
+  plan_tiles_of(job, needs, inputs, request, progress, cancel);
   return job;
 }
 
@@ -98,7 +98,8 @@ SegmentPlan plan_segment_job(io::InputSet& inputs, const SegmentRequest& request
     report.parameters.max_radius = resolve_max_radius(survey, 0.0, report.parameters.radius);
   watch.lap("survey");
   choose_neighbours(inputs, survey, report.parameters, watch, progress, cancel);
-  plan.job = plan_job(std::move(survey), request, report.parameters, kept_bytes(inputs.points()), progress);
+  plan.job =
+      plan_job(inputs, std::move(survey), request, report.parameters, kept_bytes(inputs.points()), progress, cancel);
   describe_tiles(plan.job, report);
   return plan;
 }

@@ -15,10 +15,10 @@ SupervoxelScene make_supervoxel_scene(io::InputSet& inputs, const tiling::Survey
   VoxelStageResult voxels = run_voxel_stage(inputs, survey, request.scale, request.parameters.colour, request.folder,
                                             memory, request.threads, progress, cancel);
   release_free_memory();
-  const SupervoxelStageRequest stage{
-      {request.parameters, request.scale, voxels.colours, memory.stage_bytes(), request.tile_voxels_cap},
-      request.adjacency,
-      request.folder};
+  const SupervoxelStageRequest stage{{request.parameters, request.scale, voxels.colours, memory.stage_bytes(),
+                                      request.tile_voxels_cap, request.memory_bytes},
+                                     request.adjacency,
+                                     request.folder};
   SupervoxelStageResult clusters = run_supervoxel_stage(voxels.store, stage, progress, cancel);
   release_free_memory();
   const std::uint64_t predicted = memory.predicted_peak_bytes(clusters.predicted_bytes);

@@ -16,8 +16,19 @@ namespace {
 
 /// Per stored point, at most, of tiles that are being built: spool and tile file exist together.
 constexpr double kTileFileBytesPerPoint = 24.0;
+/// A cell with more than 1/64 of the points that fit into a tile makes halos too large, which hold whole cells.
+constexpr std::uint64_t kCellsOfATile = 64;
 constexpr std::uint64_t kLikelyBytesPerTile = 48 * 1024;
 constexpr std::uint64_t kMostBytesPerTile = 64 * 1024;
+
+tiling::TilePlan plan_tiles_around_crowds(const tiling::Survey& survey, const tiling::PlanRequest& request,
+                                          io::InputSet& inputs, ProgressSink& progress, const CancelToken& cancel) {
+  tiling::PlanCells cells(survey, request.max_points / kCellsOfATile);
+  tiling::TilePlan plan = tiling::plan_tiles(cells, request);
+  while (plan.largest_covered_points > request.max_points && cells.refine(inputs, progress, cancel))
+    plan = tiling::plan_tiles(cells, request);
+  return plan;
+}
 
 /// What is resident at the peak, as against fixed_bytes and tile_bytes(), which bound it: buffers are seldom full, and
 /// tiles in flight are not all at their peak together. Measured (bench/README.md).
@@ -46,14 +57,15 @@ std::uint64_t likely_peak_bytes(const TileJob& job) {
 
 }  // namespace
 
-void plan_tiles_of(TileJob& job, const TileNeeds& needs, const RunRequest& request, ProgressSink& progress) {
+void plan_tiles_of(TileJob& job, const TileNeeds& needs, io::InputSet& inputs, const RunRequest& request,
+                   ProgressSink& progress, const CancelToken& cancel) {
   tiling::PlanRequest tiles;
   tiles.max_points = job.memory.max_tile_points;
   tiles.max_core_points = request.tile_points_cap;
   tiles.halo = needs.halo;
   tiles.max_radius = needs.max_radius;
   tiles.whole_halo = needs.whole_halo;
-  job.tiles = tiling::plan_tiles(job.survey, tiles);
+  job.tiles = plan_tiles_around_crowds(job.survey, tiles, inputs, progress, cancel);
   job.asks_again = needs.asks_again;
   constexpr double kRounding = 8.0;  // Reaches are rounded up, here and there by a step.
   job.farthest_steps =
@@ -69,7 +81,7 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, const RunRequest& reque
     throw BudgetError(
         fmt::format("the densest tile that cannot be split holds {} points and needs {}; run with at least --memory {}",
                     grouped(job.tiles.largest_covered_points), human_bytes(largest),
-                    human_bytes(least_budget_bytes(job.tiles.largest_covered_points, job.memory_request))));
+                    budget_text(least_budget_bytes(job.tiles.largest_covered_points, job.memory_request))));
   }
   job.predicted_peak_bytes = likely_peak_bytes(job);
   const auto points = static_cast<double>(job.survey.points());

@@ -45,8 +45,10 @@ struct TileNeeds {
   std::uint64_t further_temp_bytes = 0;  ///< On disk at the same time.
 };
 
-/// Cuts tiles for job.memory, which may lose workers. Throws BudgetError if memory or disk cannot do.
-void plan_tiles_of(TileJob& job, const TileNeeds& needs, const RunRequest& request, ProgressSink& progress);
+/// Cuts tiles for job.memory, which may lose workers. Reads the inputs again where most points lie in a few cells of
+/// the survey. Throws BudgetError if memory or disk cannot do.
+void plan_tiles_of(TileJob& job, const TileNeeds& needs, io::InputSet& inputs, const RunRequest& request,
+                   ProgressSink& progress, const CancelToken& cancel);
 
 /// What a method leaves to others of a tile; its results it keeps itself.
 struct TileOutcome {

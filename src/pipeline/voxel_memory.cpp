@@ -60,7 +60,7 @@ VoxelMemory::VoxelMemory(std::uint64_t budget_bytes)
   if (usable_bytes_ < fixed + kLeastTableBytes) {
     throw BudgetError(
         fmt::format("--memory {} is too small: this run needs at least {}", human_bytes(budget_bytes),
-                    human_bytes(static_cast<std::uint64_t>(static_cast<double>(fixed + kLeastTableBytes) / kSafety) +
+                    budget_text(static_cast<std::uint64_t>(static_cast<double>(fixed + kLeastTableBytes) / kSafety) +
                                 kSpareBytes)));
   }
   table_bytes_ = std::clamp((usable_bytes_ - fixed) / 2, kLeastTableBytes, kMostTableBytes);
@@ -92,6 +92,10 @@ std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const Sup
   const double all =
       static_cast<double>(resident_bytes() + predicted_scene_bytes(survey, scale)) + kOfVoxels * each * voxels;
   return static_cast<std::uint64_t>(std::min(all, kOfBudget * static_cast<double>(budget_bytes)));
+}
+
+std::uint64_t raised_budget_bytes(std::uint64_t budget_bytes, std::uint64_t more_bytes) {
+  return budget_bytes + static_cast<std::uint64_t>(static_cast<double>(more_bytes) / kSafety) + kSpareBytes;
 }
 
 std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const SupervoxelScale& scale) {

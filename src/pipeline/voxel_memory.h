@@ -37,6 +37,9 @@ std::uint64_t likely_voxels(const tiling::Survey& survey, const SupervoxelScale&
 std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
                                          const SupervoxelParameters& parameters, std::uint64_t budget_bytes);
 
+/// The budget that leaves so much more than this one.
+std::uint64_t raised_budget_bytes(std::uint64_t budget_bytes, std::uint64_t more_bytes);
+
 /// What a SupervoxelScene and its table keep in memory.
 std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const SupervoxelScale& scale);
 

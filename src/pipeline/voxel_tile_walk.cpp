@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/process_memory.h"
 #include "core/text.h"
+#include "pipeline/voxel_memory.h"
 #include "tiling/voxel_tiles.h"
 
 namespace arris::pipeline {
@@ -46,11 +47,10 @@ void VoxelTileWalk::plan(std::uint64_t kept_bytes) {
 }
 
 void VoxelTileWalk::require(std::uint64_t bytes) const {
-  if (bytes <= request_.memory_bytes) return;
+  if (fits(bytes)) return;
   throw BudgetError(fmt::format(
-      "{} voxels and their supervoxels need {} more memory than --memory leaves; raise it by at least so much, "
-      "or choose larger --voxel or --seed",
-      grouped(store_.size()), human_bytes(bytes - request_.memory_bytes)));
+      "{} voxels and their supervoxels do not fit; run with at least --memory {}, or with larger --voxel or --seed",
+      grouped(store_.size()), budget_text(raised_budget_bytes(request_.budget_bytes, bytes - request_.memory_bytes))));
 }
 
 std::uint64_t VoxelTileWalk::largest_tile_voxels() const {

@@ -25,6 +25,7 @@ struct TileWalkRequest {
   bool colours = false;
   std::uint64_t memory_bytes = 0;     ///< For tiles and what the caller keeps beside them.
   std::uint64_t tile_voxels_cap = 0;  ///< 0: none.
+  std::uint64_t budget_bytes = 0;     ///< --memory, of which memory_bytes are left; for messages.
 };
 
 /// One tile at a time is in memory; a lone one stays there between walks. Not thread-safe.
@@ -39,8 +40,7 @@ class VoxelTileWalk {
 
   /// Cuts tiles (again). @param kept_bytes  what the caller keeps. Throws BudgetError if that and a tile do not fit.
   void plan(std::uint64_t kept_bytes);
-  /// Throws BudgetError if so much does not fit.
-  void require(std::uint64_t bytes) const;
+  bool fits(std::uint64_t bytes) const { return bytes <= request_.memory_bytes; }
   const tiling::TilePlan& tiles() const { return plan_; }
   std::uint64_t predicted_bytes() const { return predicted_bytes_; }
   std::uint64_t largest_tile_voxels() const;
@@ -52,6 +52,9 @@ class VoxelTileWalk {
   std::uint64_t drop_features();
 
  private:
+  /// Throws BudgetError if so much does not fit.
+  void require(std::uint64_t bytes) const;
+
   const tiling::VoxelStore& store_;
   TileWalkRequest request_;
   ProgressSink& progress_;

@@ -35,7 +35,7 @@ class Widener {
         throw BudgetError(
             fmt::format("the neighbours of point {} lie among {} points that must be seen together; run with at "
                         "least --memory {}",
-                        queries[0].id, grouped(among), human_bytes(least_budget_bytes(among, job_.memory_request))));
+                        queries[0].id, grouped(among), budget_text(least_budget_bytes(among, job_.memory_request))));
       }
       const std::size_t half = queries.size() / 2;
       answer(queries.first(half));

@@ -8,9 +8,7 @@ namespace arris::tiling {
 namespace {
 
 std::vector<PlanCell> sorted(std::vector<PlanCell> cells) {
-  std::ranges::sort(cells, [](const PlanCell& a, const PlanCell& b) {
-    return z_order_less({a.x, a.y, a.z}, {b.x, b.y, b.z});
-  });
+  std::ranges::sort(cells, [](const PlanCell& a, const PlanCell& b) { return z_order_less(a.corner, b.corner); });
   return cells;
 }
 
@@ -23,22 +21,20 @@ bool inside(const LatticeBox& inner, const LatticeBox& outer) {
 
 }  // namespace
 
-LatticeBox PlanCell::box(int level) const {
+LatticeBox PlanCell::box() const {
   LatticeBox box;
   for (int axis = 0; axis < 3; ++axis) {
-    box.min[axis] = std::int64_t{(*this)[axis]} * (std::int64_t{1} << level);
+    box.min[axis] = corner[axis];
     box.max[axis] = box.min[axis] + (std::int64_t{1} << level);
   }
   return box;
 }
 
-BoxCounts::BoxCounts(std::vector<PlanCell> cells, int level)
-    : cells_(sorted(std::move(cells))),
-      level_(level),
-      tree_((cells_.size() + kBucket - 1) / kBucket, [&](std::size_t bucket) {
+BoxCounts::BoxCounts(std::vector<PlanCell> cells)
+    : cells_(sorted(std::move(cells))), tree_((cells_.size() + kBucket - 1) / kBucket, [&](std::size_t bucket) {
         LatticeBox box;
         for (std::size_t i = bucket * kBucket; i < std::min(cells_.size(), (bucket + 1) * kBucket); ++i) {
-          box.include(cells_[i].box(level));
+          box.include(cells_[i].box());
         }
         return box;
       }) {
@@ -59,7 +55,7 @@ std::uint64_t BoxCounts::touching(const LatticeBox& box) const {
     }
     if (end - begin == 1) {
       for (std::size_t i = begin * kBucket; i < std::min(cells_.size(), end * kBucket); ++i) {
-        if (cells_[i].box(level_).intersects(box)) sum += cells_[i].count;
+        if (cells_[i].box().intersects(box)) sum += cells_[i].count;
       }
     }
     return true;

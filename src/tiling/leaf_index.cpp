@@ -1,6 +1,6 @@
 #include "tiling/leaf_index.h"
 
-#include <bit>
+#include <algorithm>
 
 namespace arris::tiling {
 namespace {
@@ -14,9 +14,11 @@ std::size_t hash_of(const LatticePoint& key) {
 
 }  // namespace
 
-LeafIndex::LeafIndex(std::span<const LatticePoint> points, int first_level, int last_level, std::size_t points_per_leaf)
+LeafIndex::LeafIndex(std::span<const LatticePoint> points, int first_level, int last_level, std::size_t points_per_leaf,
+                     std::size_t least_points_per_leaf)
     : level_(first_level) {
-  const std::size_t most = std::max<std::size_t>(points.size() / std::max<std::size_t>(points_per_leaf, 1), 1);
+  const std::size_t most = std::max<std::size_t>(points.size() / points_per_leaf, 1);
+  const std::size_t most_of_the_largest = std::max<std::size_t>(points.size() / least_points_per_leaf, 1);
   rehash(1024);
   LatticePoint last{};
   bool any = false;
@@ -27,6 +29,10 @@ LeafIndex::LeafIndex(std::span<const LatticePoint> points, int first_level, int 
     while (keys_.size() > most && level_ < last_level) {
       coarsen();
       key = key_of(p);
+    }
+    if (level_ == last_level && keys_.size() > most_of_the_largest) {
+      scattered_ = true;
+      return;
     }
     last = key;
     any = true;
@@ -62,6 +68,14 @@ void LeafIndex::coarsen() {
   fine.swap(keys_);
   slots_.assign(slots_.size(), 0);
   for (const LatticePoint& key : fine) find_or_add({key.x >> 1, key.y >> 1, key.z >> 1});
+}
+
+std::size_t LeafIndex::cubes(int log2) const {
+  std::vector<LatticePoint> cubes;
+  cubes.reserve(keys_.size());
+  for (const LatticePoint& key : keys_) cubes.push_back({key.x >> log2, key.y >> log2, key.z >> log2});
+  std::ranges::sort(cubes);
+  return static_cast<std::size_t>(std::ranges::unique(cubes).begin() - cubes.begin());
 }
 
 LatticePoint LeafIndex::origin(std::size_t leaf) const {

@@ -12,16 +12,22 @@
 namespace arris::tiling {
 
 /// The leaves of 2^level steps a side that hold points, made in one pass: it starts with small leaves and doubles their
-/// side whenever there are more than the points can fill. Memory: about 64 bytes per leaf and 8 bytes per point (4
-/// after grouping).
+/// side whenever there are more than the points can fill. Points too far apart for the largest leaves have no index: it
+/// is given up as soon as that is certain. Memory: about 64 bytes per leaf and 8 bytes per point (4 after grouping).
 class LeafIndex {
  public:
-  /// @param first_level, last_level  smallest and largest leaf; the largest is kept however many leaves there are.
+  /// @param first_level, last_level  smallest and largest leaf.
   /// @param points_per_leaf          wanted average, >= 1.
-  LeafIndex(std::span<const LatticePoint> points, int first_level, int last_level, std::size_t points_per_leaf);
+  /// @param least_points_per_leaf    average with which the largest leaves will do, >= 1.
+  LeafIndex(std::span<const LatticePoint> points, int first_level, int last_level, std::size_t points_per_leaf,
+            std::size_t least_points_per_leaf);
 
+  /// There is no index: nothing else may be asked.
+  bool scattered() const { return scattered_; }
   int level() const { return level_; }
   std::size_t size() const { return keys_.size(); }
+  /// Number of cubes of 2^log2 leaves a side that hold points. Memory: 12 bytes per leaf.
+  std::size_t cubes(int log2) const;
   /// Lowest corner of leaf `leaf`.
   LatticePoint origin(std::size_t leaf) const;
   /// Fills `order` with the indices of all points, leaf by leaf, ascending within a leaf; `begin` gets size() + 1
@@ -36,6 +42,7 @@ class LeafIndex {
   LatticePoint key_of(const LatticePoint& p) const { return {p.x >> level_, p.y >> level_, p.z >> level_}; }
 
   int level_;
+  bool scattered_ = false;
   std::vector<LatticePoint> keys_;    // Positions >> level_.
   std::vector<std::uint32_t> slots_;  // Open addressing: index into keys_ + 1, 0 = free.
 };

@@ -17,6 +17,7 @@
 #include "core/parallel.h"
 #include "tiling/leaf_index.h"
 #include "tiling/morton.h"
+#include "tiling/scattered_points.h"
 
 namespace arris::tiling {
 namespace {
@@ -26,15 +27,20 @@ using openvdb::points::PointDataTree;
 using Leaf = PointDataTree::LeafNodeType;
 using Descriptor = openvdb::points::AttributeSet::Descriptor;
 using FixedCodec = openvdb::points::FixedPointCodec<false, openvdb::points::PositionRange>;
-using FloatCodec = openvdb::points::NullCodec;
 using IdArray = openvdb::points::TypedAttributeArray<std::int64_t>;
 
 constexpr int kLeafLog2 = 3;
 constexpr int kFixedVoxelLog2 = 13;  // Above, 16 bits cannot tell the steps of a voxel apart safely.
-constexpr int kFloatVoxelLog2 = 18;  // Three coordinates within a leaf still fit a 64-bit Z-order key.
-// Emptier fixed-point leaves (2.7 kB each whatever they hold) cost more than the 6 bytes by which float positions are
-// larger.
-constexpr std::size_t kSparsePointsPerLeaf = 256;
+/// Leaves take so much whatever they hold (the average of points that large leaves need is made for it), and so do the
+/// nodes above them: 16^3 leaves, and 32^3 of those.
+constexpr std::size_t kLeastPointsPerLeaf = 256;
+constexpr std::size_t kLowerNodeBytes = 34'000;
+constexpr std::size_t kUpperNodeBytes = 270'000;
+constexpr int kLowerNodeLog2 = 4;
+constexpr int kUpperNodeLog2 = 9;
+/// Of a cloud around a corner where eight upper nodes meet, and on top of that per point.
+constexpr std::size_t kFairNodeBytes = 3'000'000;
+constexpr std::size_t kFairNodeBytesPerPoint = 4;
 constexpr std::size_t kGrainLeaves = 16;
 constexpr const char* kVoxelMeta = "storage_voxel_log2";
 constexpr openvdb::Index kVoxels = 512;
@@ -86,10 +92,9 @@ class VoxelOrder {
   std::vector<Leaf::ValueType> offsets_;
 };
 
-template <typename Codec>
 void write_positions(Leaf& leaf, std::span<const LatticePoint> positions, const std::vector<std::uint32_t>& order,
                      int log2) {
-  openvdb::points::AttributeWriteHandle<openvdb::Vec3f, Codec> handle(leaf.attributeArray("P"));
+  openvdb::points::AttributeWriteHandle<openvdb::Vec3f, FixedCodec> handle(leaf.attributeArray("P"));
   const StepCodec codec(log2);
   const std::int32_t mask = (std::int32_t{1} << log2) - 1;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -99,10 +104,11 @@ void write_positions(Leaf& leaf, std::span<const LatticePoint> positions, const 
   }
 }
 
-template <typename Codec>
-Descriptor::Ptr make_descriptor() {
-  const auto positions = openvdb::points::TypedAttributeArray<openvdb::Vec3f, Codec>::attributeType();
-  return Descriptor::create(positions)->duplicateAppend("id", IdArray::attributeType());
+bool is_scattered(const LeafIndex& index, std::size_t points) {
+  if (index.scattered()) return true;
+  const std::size_t nodes =
+      index.cubes(kLowerNodeLog2) * kLowerNodeBytes + index.cubes(kUpperNodeLog2) * kUpperNodeBytes;
+  return nodes > kFairNodeBytes + points * kFairNodeBytesPerPoint;
 }
 
 /// A point of a leaf on its way back: the Z-order key of its position in the leaf, and its id.
@@ -120,9 +126,8 @@ const std::array<std::uint16_t, kVoxels>& voxels_in_z_order() {
 }
 
 /// Fills `points` with the leaf's points in Z-order, equal positions by ascending id.
-template <typename Codec>
 void read_leaf(const Leaf& leaf, int log2, std::vector<KeyedId>& points) {
-  const openvdb::points::AttributeHandle<openvdb::Vec3f, Codec> positions(leaf.constAttributeArray("P"));
+  const openvdb::points::AttributeHandle<openvdb::Vec3f, FixedCodec> positions(leaf.constAttributeArray("P"));
   const openvdb::points::AttributeHandle<std::int64_t, openvdb::points::NullCodec> ids(leaf.constAttributeArray("id"));
   const StepCodec codec(log2);
   points.clear();
@@ -155,6 +160,39 @@ LatticeBox box_of(const Leaf& leaf, int log2) {
   return box;
 }
 
+/// The tree of a cloud that is not scattered.
+PointDataTree::Ptr make_tree(std::span<const LatticePoint> positions, std::span<const std::uint64_t> ids,
+                             const LeafIndex& index, int log2) {
+  std::vector<std::uint32_t> order, begin;
+  index.group(positions, order, begin);
+  const auto descriptor =
+      Descriptor::create(openvdb::points::TypedAttributeArray<openvdb::Vec3f, FixedCodec>::attributeType())
+          ->duplicateAppend("id", IdArray::attributeType());
+  std::vector<std::unique_ptr<Leaf>> leaves(index.size());
+  parallel_for_chunks(leaves.size(), kGrainLeaves, [&](std::size_t first, std::size_t last) {
+    VoxelOrder voxels;
+    for (std::size_t i = first; i < last; ++i) {
+      const auto points = std::span(order).subspan(begin[i], begin[i + 1] - begin[i]);
+      const LatticePoint origin = index.origin(i);
+      auto leaf = std::make_unique<Leaf>(openvdb::Coord(origin.x >> log2, origin.y >> log2, origin.z >> log2));
+      leaf->replaceAttributeSet(
+          new openvdb::points::AttributeSet(descriptor, static_cast<openvdb::Index>(points.size())),
+          /*allowMismatchingDescriptors=*/true);
+      voxels.sort(positions, points, log2);
+      leaf->setOffsets(voxels.offsets());
+      write_positions(*leaf, positions, voxels.sorted(), log2);
+      openvdb::points::AttributeWriteHandle<std::int64_t, openvdb::points::NullCodec> id(leaf->attributeArray("id"));
+      for (std::size_t n = 0; n < points.size(); ++n) {
+        id.set(static_cast<openvdb::Index>(n), static_cast<std::int64_t>(ids[voxels.sorted()[n]]));
+      }
+      leaves[i] = std::move(leaf);
+    }
+  });
+  auto tree = std::make_shared<PointDataTree>();
+  for (auto& leaf : leaves) tree->addLeaf(leaf.release());
+  return tree;
+}
+
 }  // namespace
 
 struct PointGrid::Impl {
@@ -169,43 +207,11 @@ PointGrid::PointGrid(std::span<const LatticePoint> positions, std::span<const st
         fmt::format("a tile of {} points is too large; use tiles of fewer than 2^32 points", positions.size()));
   }
   initialize_openvdb();
-  LeafIndex index(positions, kLeafLog2, kLeafLog2 + kFixedVoxelLog2, kPointsPerLeaf);
-  const bool sparse = index.size() > 1 && positions.size() / index.size() < kSparsePointsPerLeaf;
-  if (sparse) {
-    index = LeafIndex(positions, kLeafLog2 + kFixedVoxelLog2 + 1, kLeafLog2 + kFloatVoxelLog2, kPointsPerLeaf);
-  }
-  const int log2 = index.level() - kLeafLog2;
-  std::vector<std::uint32_t> order, begin;
-  index.group(positions, order, begin);
-
-  const Descriptor::Ptr descriptor = sparse ? make_descriptor<FloatCodec>() : make_descriptor<FixedCodec>();
-  std::vector<std::unique_ptr<Leaf>> leaves(index.size());
-  parallel_for_chunks(leaves.size(), kGrainLeaves, [&](std::size_t first, std::size_t last) {
-    VoxelOrder voxels;
-    for (std::size_t i = first; i < last; ++i) {
-      const auto points = std::span(order).subspan(begin[i], begin[i + 1] - begin[i]);
-      const LatticePoint origin = index.origin(i);
-      auto leaf = std::make_unique<Leaf>(openvdb::Coord(origin.x >> log2, origin.y >> log2, origin.z >> log2));
-      leaf->replaceAttributeSet(
-          new openvdb::points::AttributeSet(descriptor, static_cast<openvdb::Index>(points.size())),
-          /*allowMismatchingDescriptors=*/true);
-      voxels.sort(positions, points, log2);
-      leaf->setOffsets(voxels.offsets());
-      if (sparse) {
-        write_positions<FloatCodec>(*leaf, positions, voxels.sorted(), log2);
-      } else {
-        write_positions<FixedCodec>(*leaf, positions, voxels.sorted(), log2);
-      }
-      openvdb::points::AttributeWriteHandle<std::int64_t, openvdb::points::NullCodec> id(leaf->attributeArray("id"));
-      for (std::size_t n = 0; n < points.size(); ++n) {
-        id.set(static_cast<openvdb::Index>(n), static_cast<std::int64_t>(ids[voxels.sorted()[n]]));
-      }
-      leaves[i] = std::move(leaf);
-    }
-  });
-
-  auto tree = std::make_shared<PointDataTree>();
-  for (auto& leaf : leaves) tree->addLeaf(leaf.release());
+  std::optional<LeafIndex> index(std::in_place, positions, kLeafLog2, kLeafLog2 + kFixedVoxelLog2, kPointsPerLeaf,
+                                 kLeastPointsPerLeaf);
+  const int log2 = index->level() - kLeafLog2;
+  if (is_scattered(*index, positions.size())) index.reset();
+  const auto tree = index ? make_tree(positions, ids, *index, log2) : list_scattered_points(positions, ids);
   impl_->grid = PointDataGrid::create(tree);
   impl_->grid->setName("points");
   // World space is lattice steps: the middle of a voxel of 2^v steps lies (2^v - 1) / 2 behind its first step.
@@ -234,7 +240,9 @@ SortedPoints read_point_grid(std::istream& stream, const std::function<bool(cons
   if (!grid) throw std::runtime_error("holds no points");
   grids->clear();
   const int log2 = grid->metaValue<std::int32_t>(kVoxelMeta);
-  if (log2 < 0 || log2 > kFloatVoxelLog2) throw std::runtime_error("has an unknown storage voxel");
+  if (log2 < 0 || log2 > kFixedVoxelLog2) throw std::runtime_error("has an unknown storage voxel");
+
+  if (lists_scattered_points(grid->tree())) return take_scattered_points(grid->tree(), wanted);
 
   std::vector<Leaf*> leaves;
   grid->tree().getNodes(leaves);
@@ -255,11 +263,7 @@ SortedPoints read_point_grid(std::istream& stream, const std::function<bool(cons
     std::vector<KeyedId> points;
     for (std::size_t i = first; i < last; ++i) {
       Leaf& leaf = *leaves[i];
-      if (leaf.constAttributeArray("P").isType<openvdb::points::TypedAttributeArray<openvdb::Vec3f, FixedCodec>>()) {
-        read_leaf<FixedCodec>(leaf, log2, points);
-      } else {
-        read_leaf<FloatCodec>(leaf, log2, points);
-      }
+      read_leaf(leaf, log2, points);
       const openvdb::Coord& corner = leaf.origin();
       for (std::size_t n = 0; n < points.size(); ++n) {
         const std::uint64_t key = points[n].first;

@@ -23,9 +23,9 @@ struct SortedPoints {
 
 /// A grid "points" with the attributes "P" and "id" (int64), whose world space is lattice steps. It is written when
 /// asked, so that the caller may drop its points first. Storage voxels are 2^v steps: v is the smallest for which a
-/// leaf of 8^3 voxels holds kPointsPerLeaf points on average. Up to v = 13 positions are 16-bit fixed point (an error
-/// below voxel / 65535 cannot leave a step); clouds that would leave such leaves half empty store float positions with
-/// v up to 18.
+/// leaf of 8^3 voxels holds kPointsPerLeaf points on average, 13 at most. Positions are 16-bit fixed point (an error
+/// below voxel / 65535 cannot leave a step). Clouds so scattered that leaves and the nodes above them would take more
+/// memory than their points are listed instead (scattered_points.h).
 ///
 /// Peak memory while it is made: tile_store.h, build_bytes. Runs in parallel (core/parallel.h).
 class PointGrid {

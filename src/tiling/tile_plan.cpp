@@ -19,42 +19,39 @@ constexpr std::uint64_t kHaloDominates = 4;
 /// help.
 constexpr std::uint64_t kHaloIsTooLarge = 64;
 
-std::vector<PlanCell> list_cells(const Survey& survey) {
-  const CellCounts& counts = survey.counts;
+std::vector<PlanCell> list_cells(const PlanCells& plan_cells) {
+  const CellCounts& counts = plan_cells.largest();
   const int level = counts.level();
-  const SpacingEstimate typical = estimate_spacing(counts, survey.bounds);
+  const SpacingEstimate typical = estimate_spacing(counts, plan_cells.survey().bounds);
   // Cells too small to show a density are judged by the larger cells around them.
   std::optional<CellCounts> coarse;
   if (typical.level > level) coarse = counts.coarsened(typical.level);
   std::vector<PlanCell> cells;
   cells.reserve(counts.active_cells());
-  counts.for_each([&](const LatticeBox& box, std::uint64_t count) {
+  plan_cells.for_each([&](const LatticeBox& box, int cell_level, std::uint64_t count) {
     const LatticePoint corner{static_cast<std::int32_t>(box.min[0]), static_cast<std::int32_t>(box.min[1]),
                               static_cast<std::int32_t>(box.min[2])};
     double spacing = typical.steps;
-    if (typical.level >= 0) spacing = cell_spacing_steps(typical.level, coarse ? coarse->count_at(corner) : count);
-    cells.push_back({corner.x >> level, corner.y >> level, corner.z >> level, static_cast<float>(spacing), count});
+    if (cell_level < level) {  // A part of a crowded cell.
+      const bool covered = count >= kCoveredCellPoints;
+      spacing = cell_spacing_steps(covered ? cell_level : level, covered ? count : counts.count_at(corner));
+    } else if (typical.level >= 0) {
+      spacing = cell_spacing_steps(typical.level, coarse ? coarse->count_at(corner) : count);
+    }
+    cells.push_back({corner, static_cast<float>(spacing), count, cell_level});
   });
   return cells;
 }
 
 class Planner {
  public:
-  Planner(const Survey& survey, const PlanRequest& request)
-      : request_(request),
-        step_(survey.lattice.step),
-        level_(survey.counts.level()),
-        cells_(list_cells(survey)),
-        counts_(cells_, level_) {}
+  Planner(const PlanCells& cells, const PlanRequest& request)
+      : request_(request), step_(cells.survey().lattice.step), cells_(list_cells(cells)), counts_(cells_) {}
 
   TilePlan run(std::uint64_t points) {
-    // In cells, the whole lattice: [-2^31, 2^31) >> level.
-    CellBox all;
-    for (int axis = 0; axis < 3; ++axis) {
-      all.min[axis] = -(std::int64_t{1} << 31 >> level_);
-      all.max[axis] = std::int64_t{1} << 31 >> level_;
-    }
-    if (!cells_.empty()) split(cells_, all);
+    constexpr std::int64_t kEnd = std::int64_t{1} << 31;
+    constexpr LatticeBox kWholeLattice{{-kEnd, -kEnd, -kEnd}, {kEnd, kEnd, kEnd}};
+    if (!cells_.empty()) split(cells_, kWholeLattice);
     std::uint64_t covered = 0;
     for (const PlannedTile& tile : plan_.tiles) {
       covered += tile.covered_points;
@@ -65,16 +62,15 @@ class Planner {
   }
 
  private:
-  using CellBox = LatticeBox;  // Counted in cells, not in steps.
-
-  static CellBox occupied_part(std::span<const PlanCell> cells) {
-    CellBox box;
-    for (const PlanCell& cell : cells) box.include(LatticePoint{cell.x, cell.y, cell.z});
+  static LatticeBox occupied_part(std::span<const PlanCell> cells) {
+    LatticeBox box;
+    for (const PlanCell& cell : cells) box.include(cell.box());
     return box;
   }
 
-  void split(std::span<PlanCell> cells, CellBox box) {
-    const CellBox occupied = occupied_part(cells);
+  /// No midpoint cuts a cell: a box whose occupied part is as long as its longest cell holds no other.
+  void split(std::span<PlanCell> cells, LatticeBox box) {
+    const LatticeBox occupied = occupied_part(cells);
     PlannedTile tile = make_tile(cells, occupied);
     if (!request_.whole_halo && tile.core_points <= request_.max_points / kHaloDominates) narrow_halo(tile);
     const bool core_fits = request_.max_core_points == 0 || tile.core_points <= request_.max_core_points;
@@ -110,22 +106,20 @@ class Planner {
     }
   }
 
-  void split_at(std::span<PlanCell> cells, const CellBox& box, int axis, std::int64_t middle) {
-    const auto upper_cells = std::ranges::partition(cells, [&](const PlanCell& cell) { return cell[axis] < middle; });
+  void split_at(std::span<PlanCell> cells, const LatticeBox& box, int axis, std::int64_t middle) {
+    const auto upper_cells =
+        std::ranges::partition(cells, [&](const PlanCell& cell) { return cell.corner[axis] < middle; });
     const auto lower_count = static_cast<std::size_t>(upper_cells.begin() - cells.begin());
-    CellBox lower = box, upper = box;
+    LatticeBox lower = box, upper = box;
     lower.max[axis] = middle;
     upper.min[axis] = middle;
     split(cells.first(lower_count), lower);
     split(cells.subspan(lower_count), upper);
   }
 
-  PlannedTile make_tile(std::span<const PlanCell> cells, const CellBox& occupied) {
+  PlannedTile make_tile(std::span<const PlanCell> cells, const LatticeBox& occupied) {
     PlannedTile tile;
-    for (int axis = 0; axis < 3; ++axis) {
-      tile.core.min[axis] = occupied.min[axis] * (std::int64_t{1} << level_);
-      tile.core.max[axis] = occupied.max[axis] * (std::int64_t{1} << level_);
-    }
+    tile.core = occupied;
     for (const PlanCell& cell : cells) tile.core_points += cell.count;
     tile.covered = tile.core.expanded(halo_steps(cells, tile.core_points));
     tile.covered_points = counts_.touching(tile.covered);
@@ -158,7 +152,6 @@ class Planner {
 
   const PlanRequest& request_;
   double step_;
-  int level_;
   std::vector<PlanCell> cells_;
   BoxCounts counts_;
   std::vector<std::pair<float, std::uint64_t>> spacings_;
@@ -167,11 +160,15 @@ class Planner {
 
 }  // namespace
 
-TilePlan plan_tiles(const Survey& survey, const PlanRequest& request) {
+TilePlan plan_tiles(const PlanCells& cells, const PlanRequest& request) {
   if (request.max_points == 0) throw ConfigError("a tile must be allowed at least one point");
   if (!request.halo || !(request.max_radius > 0.0))
     throw ConfigError("the plan needs a halo and a positive maximum radius");
-  return Planner(survey, request).run(survey.counts.total());
+  return Planner(cells, request).run(cells.survey().counts.total());
+}
+
+TilePlan plan_tiles(const Survey& survey, const PlanRequest& request) {
+  return plan_tiles(PlanCells(survey), request);
 }
 
 }  // namespace arris::tiling

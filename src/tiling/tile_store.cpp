@@ -21,8 +21,8 @@
 namespace arris::tiling {
 namespace {
 
-// Measured peaks of surface scans are 48 and 41 bytes per point in tiles of a million points; sparse clouds with float
-// positions cost up to 8 more. The fixed part is stream and page buffers.
+// Measured peaks of surface scans are 48 and 41 bytes per point in tiles of a million points; scattered points cost up
+// to 8 more. The fixed part is stream and page buffers.
 constexpr double kBuildBytesPerPoint = 56.0;
 constexpr double kLoadBytesPerPoint = 50.0;
 constexpr double kFixedBytes = 8.0 * 1024 * 1024;

@@ -45,8 +45,8 @@ class TileStore {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Predicted peak bytes of build() and of load() (including what load() returns), for a tile of `points` points. They
-/// hold unless points are so far apart that the largest leaves (2^21 steps) hold fewer than about 250 of them.
+/// Predicted peak bytes of build() and of load() (including what load() returns), for a tile of `points` points,
+/// wherever they are.
 std::uint64_t build_bytes(std::uint64_t points);
 std::uint64_t load_bytes(std::uint64_t points);
 

@@ -9,6 +9,8 @@ namespace arris::tiling {
 namespace {
 
 constexpr int kBlockLevel = 3;  // Of VoxelIndex.
+/// A cell with more than 1/64 of the voxels of a tile makes halos too large, which hold whole cells.
+constexpr std::uint64_t kCellsOfATile = 64;
 
 }  // namespace
 
@@ -19,19 +21,26 @@ TilePlan plan_voxel_tiles(const VoxelIndex& index, const VoxelPlanRequest& reque
   voxels.points_in = index.size();
   voxels.spacing = 1.0;
   voxels.counts = CellCounts(kBlockLevel);
-  for (std::size_t i = 0; i < index.blocks(); ++i) {
-    const VoxelIndex::Block block = index.block(i);
-    const LatticePoint corner{block.key.x * (1 << kBlockLevel), block.key.y * (1 << kBlockLevel),
-                              block.key.z * (1 << kBlockLevel)};
-    voxels.counts.add(corner, block.voxels);
-  }
+  const auto add_blocks = [&](const PlanCells::Add& add) {
+    for (std::size_t i = 0; i < index.blocks(); ++i) {
+      const VoxelIndex::Block block = index.block(i);
+      const LatticePoint corner{block.key.x * (1 << kBlockLevel), block.key.y * (1 << kBlockLevel),
+                                block.key.z * (1 << kBlockLevel)};
+      add({&corner, 1}, block.voxels);
+    }
+  };
+  add_blocks(
+      [&](std::span<const LatticePoint> corners, std::uint64_t count) { voxels.counts.add(corners.front(), count); });
   PlanRequest plan;
   plan.max_points = request.max_voxels;
   plan.max_core_points = request.max_core_voxels;
   plan.max_radius = std::max(1, request.halo_voxels);
   plan.whole_halo = true;
   plan.halo = [&](double) { return static_cast<double>(request.halo_voxels); };
-  return plan_tiles(voxels, plan);
+  PlanCells cells(voxels, plan.max_points / kCellsOfATile, kBlockLevel);
+  TilePlan tiles = plan_tiles(cells, plan);
+  while (tiles.largest_covered_points > plan.max_points && cells.refine(add_blocks)) tiles = plan_tiles(cells, plan);
+  return tiles;
 }
 
 VoxelTile load_voxel_tile(const VoxelStore& store, const PlannedTile& planned, bool colours) {

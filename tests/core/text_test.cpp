@@ -20,6 +20,13 @@ TEST(Grouped, Digits_AreInThrees) {
   EXPECT_EQ(grouped(18446744073709551615ULL), "18 446 744 073 709 551 615");
 }
 
+TEST(BudgetText, Sizes_AreRoundedUp) {
+  EXPECT_EQ(budget_text(0), "0MiB");
+  EXPECT_EQ(budget_text(1), "1MiB");
+  EXPECT_EQ(budget_text(256ULL << 20), "256MiB");
+  EXPECT_EQ(budget_text((256ULL << 20) + 1), "257MiB");
+}
+
 TEST(HumanBytes, Sizes_UseBinaryUnits) {
   EXPECT_EQ(human_bytes(300), "300 B");
   EXPECT_EQ(human_bytes(1536), "1.5 KiB");

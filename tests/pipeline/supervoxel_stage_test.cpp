@@ -178,12 +178,12 @@ TEST_F(SupervoxelStage, WeightsOfZero_AreNoSpecialCase) {
   EXPECT_EQ(cluster(Features::kNormal, 300).ids, whole.ids);
 }
 
-TEST_F(SupervoxelStage, BudgetThatCannotDo_IsABudgetErrorThatSaysHowMuchMore) {
+TEST_F(SupervoxelStage, BudgetThatCannotDo_IsABudgetErrorThatSaysWhatWouldDo) {
   try {
     cluster(Features::kNormal, 0, 100'000);
     FAIL() << "100 kB were enough";
   } catch (const BudgetError& error) {
-    EXPECT_NE(std::string(error.what()).find("more memory"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("at least --memory"), std::string::npos) << error.what();
   }
 }
 

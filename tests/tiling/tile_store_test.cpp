@@ -131,6 +131,36 @@ TEST(PointGrid, AllStepsOfTheLargestFixedPointVoxel_AreTold) {
   EXPECT_EQ(found, expected);
 }
 
+TEST(PointGrid, LonePointsAllOverTheLattice_TakeLittleAndComeBackInZOrder) {
+  std::mt19937 random(5);
+  std::vector<LatticePoint> points;
+  std::vector<std::uint64_t> ids;
+  const auto coordinate = [&] { return static_cast<std::int32_t>(random()); };
+  for (std::uint64_t i = 0; i < 20'000; ++i) {
+    points.push_back({coordinate(), coordinate(), coordinate()});
+    ids.push_back(i);
+  }
+  std::stringstream stream;
+  PointGrid(points, ids, {}).write(stream);
+  EXPECT_LT(stream.str().size(), 24 * points.size());
+  const SortedPoints back = read_point_grid(stream);
+  EXPECT_TRUE(std::ranges::is_sorted(back.positions, z_order_less));
+  std::multiset<Record> records;
+  for (std::size_t i = 0; i < back.positions.size(); ++i) records.emplace(back.positions[i], back.ids[i]);
+  EXPECT_EQ(records, numbered(points));
+
+  const LatticeBox low{{-(std::int64_t{1} << 31), -(std::int64_t{1} << 31), -(std::int64_t{1} << 31)}, {0, 0, 0}};
+  stream.clear();
+  stream.seekg(0);
+  const SortedPoints near = read_point_grid(stream, [&](const LatticeBox& box) { return box.intersects(low); });
+  const auto inside = [&](const SortedPoints& all) {
+    return std::ranges::count_if(all.positions, [&](const LatticePoint& p) { return low.contains(p); });
+  };
+  EXPECT_LT(near.positions.size(), points.size());
+  EXPECT_EQ(near.positions.size(), near.ids.size());
+  EXPECT_EQ(inside(near), inside(back));
+}
+
 TEST(TileStore, OnePoint_ComesBack) {
   OneTile tile({{-7, 8, -9}});
   tile.store.build(0);
