@@ -2,64 +2,63 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
-#include "features/segment/tile_growth.h"
+#include "core/parallel.h"
 
 namespace arris::merge {
 namespace {
 
-constexpr std::size_t kHeadWords = 4;
-constexpr std::size_t kBlockRecords = 64 * 1024;
+/// Of 64 thousand words when they are appended.
+constexpr std::size_t kPartsAtATime = 32;
 
 }  // namespace
 
 SegmentFrontier::SegmentFrontier(std::filesystem::path file, std::size_t most_neighbours)
-    : stride_(kHeadWords + most_neighbours),
-      path_(std::move(file)),
-      file_(std::make_unique<tiling::ScratchFile>(path_)) {}
-
-void SegmentFrontier::keep_border(const PointLabels& labels) {
-  auto border = std::make_unique<tiling::ScratchFile>(path_.string() + "_border");
-  std::vector<std::uint32_t> kept;
-  for_each_block([&](std::span<const std::uint32_t> words) {
-    kept.clear();
-    for (std::size_t i = 0; i < words.size() / stride_; ++i) {
-      const FrontierPoint p = point(words, i);
-      const std::uint32_t own = labels[p.id];
-      const auto same = [&](std::uint32_t neighbour) { return labels[neighbour] == own; };
-      if (own != 0 && std::all_of(p.neighbours.begin(), p.neighbours.end(), same)) continue;
-      const std::span<const std::uint32_t> record = words.subspan(i * stride_, stride_);
-      kept.insert(kept.end(), record.begin(), record.end());
-    }
-    border->append(std::as_bytes(std::span(kept)));
-  });
-  file_ = std::move(border);
-}
+    : stride_(4 + most_neighbours), file_(std::move(file)) {}
 
 void SegmentFrontier::append(std::span<const std::uint32_t> words) {
+  std::vector<std::byte> bytes;
+  encode_frontier(words, stride_, bytes);
+  Part part;
+  part.bytes = static_cast<std::uint32_t>(bytes.size());
+  part.records = static_cast<std::uint32_t>(words.size() / stride_);
   const std::lock_guard lock(mutex_);
-  file_->append(std::as_bytes(words));
+  part.offset = file_.size_bytes();
+  file_.append(bytes);
+  records_ += part.records;
+  parts_.push_back(std::move(part));
 }
 
-void SegmentFrontier::for_each_block(const std::function<void(std::span<const std::uint32_t>)>& use) const {
-  std::vector<std::uint32_t> words;
-  const std::uint64_t all = records();
-  for (std::uint64_t first = 0; first < all; first += kBlockRecords) {
-    words.resize(stride_ * static_cast<std::size_t>(std::min<std::uint64_t>(kBlockRecords, all - first)));
-    file_->read_at(first * stride_ * sizeof(std::uint32_t), std::as_writable_bytes(std::span(words)));
-    use(words);
+void SegmentFrontier::keep_border(const PointLabels& labels) {
+  std::size_t next_part = 0;
+  for_each_block([&](const FrontierBlock& block) {
+    Part& part = parts_[next_part++];
+    part.dropped.resize(block.size());
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const FrontierPoint p = block.point(i);
+      const std::uint32_t own = labels[p.id];
+      const auto same = [&](std::uint32_t neighbour) { return labels[neighbour] == own; };
+      part.dropped[i] = own != 0 && std::all_of(p.neighbours.begin(), p.neighbours.end(), same);
+    }
+    const auto dropped = static_cast<std::uint64_t>(std::count(part.dropped.begin(), part.dropped.end(), true));
+    if (dropped == 0) part.dropped = {};
+    records_ -= dropped;
+  });
+}
+
+void SegmentFrontier::read(const Part& part, FrontierBlock& block) const {
+  std::vector<std::byte> bytes(part.bytes);
+  file_.read_at(part.offset, bytes);
+  if (!decode_frontier(bytes, part.records, part.dropped, block)) file_.throw_damaged();
+}
+
+void SegmentFrontier::for_each_block(const std::function<void(const FrontierBlock&)>& use) const {
+  std::vector<FrontierBlock> blocks(std::min(kPartsAtATime, parts_.size()));
+  for (std::size_t first = 0; first < parts_.size(); first += blocks.size()) {
+    const std::size_t count = std::min(blocks.size(), parts_.size() - first);
+    parallel_for_chunks(count, 1, [&](std::size_t begin, std::size_t) { read(parts_[first + begin], blocks[begin]); });
+    for (std::size_t i = 0; i < count; ++i) use(blocks[i]);
   }
-}
-
-FrontierPoint SegmentFrontier::point(std::span<const std::uint32_t> words, std::size_t index) const {
-  const std::span<const std::uint32_t> record = words.subspan(index * stride_, stride_);
-  std::size_t count = stride_ - kHeadWords;
-  while (count > 0 && record[kHeadWords + count - 1] == TileGrowth::kNoId) --count;
-  return {record[0],
-          {static_cast<std::int32_t>(record[1]), static_cast<std::int32_t>(record[2]),
-           static_cast<std::int32_t>(record[3])},
-          record.subspan(kHeadWords, count)};
 }
 
 }  // namespace arris::merge
