@@ -14,21 +14,29 @@
 namespace arris::pipeline {
 namespace {
 
-/// A component of 8 points is as small as most are; their table is in memory.
-constexpr double kComponentBytesPerPoint = 2.0;
+/// The table of components and the links across tiles: scans have a component for 60 points or more, as published for
+/// 10, where points of vegetation are linked one by one.
+constexpr double kComponentBytesPerPoint = 1.0;
+constexpr double kPublishedComponentBytesPerPoint = 2.5;
+/// Most of the time of a tile is the search for neighbours, when most of its bytes are there.
+constexpr double kBesideAnother = 0.75;
 
 /// What a scan of n points keeps in memory besides its tiles.
-std::uint64_t kept_bytes(std::uint64_t points) {
-  const double per_point = merge::kLabelBytesPerPoint + kComponentBytesPerPoint;
+std::uint64_t kept_bytes(std::uint64_t points, bool published) {
+  const double per_point =
+      merge::kLabelBytesPerPoint + (published ? kPublishedComponentBytesPerPoint : kComponentBytesPerPoint);
   return static_cast<std::uint64_t>(per_point * static_cast<double>(points));
 }
 
 TileJob plan_job(tiling::Survey survey, const SegmentRequest& request, SegmentParameters& parameters,
-                 std::uint64_t kept, ProgressSink& progress) {
+                 std::uint64_t points, ProgressSink& progress) {
   TileJob job;
   job.survey = std::move(survey);
-  job.memory_request = {
-      request.memory_bytes, request.threads, kept, {growth_bytes_per_point(parameters), kGrowthBytesPerThread}};
+  job.memory_request = {request.memory_bytes,
+                        request.threads,
+                        kept_bytes(points, parameters.published),
+                        parameters.intensity ? points : 0,
+                        {growth_bytes_per_point(parameters), kGrowthBytesPerThread, kBesideAnother}};
   job.memory = plan_memory(job.memory_request);
   TileNeeds needs;
   needs.halo = [&](double spacing) { return segment_halo(parameters, spacing); };
@@ -97,7 +105,7 @@ SegmentPlan plan_segment_job(io::InputSet& inputs, const SegmentRequest& request
     report.parameters.max_radius = resolve_max_radius(survey, 0.0, report.parameters.radius);
   watch.lap("survey");
   choose_neighbours(inputs, survey, report.parameters, watch, progress, cancel);
-  plan.job = plan_job(std::move(survey), request, report.parameters, kept_bytes(inputs.points()), progress);
+  plan.job = plan_job(std::move(survey), request, report.parameters, inputs.points(), progress);
   describe_tiles(plan.job, report);
   return plan;
 }
