@@ -138,7 +138,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     MemoryBudget budget(plan.memory.tiles_bytes);
     const TileAnalysis analysis = analysis_of(plan, labelled.get(), results);
     const TileStageResult tiles = run_tile_stage(inputs, plan, analysis, folder.path(), store, budget, sink, cancel);
-    report.peak_temp_bytes = std::max({report.peak_temp_bytes, tiles.spooled_bytes, folder_bytes(folder.path())});
+    report.peak_temp_bytes = std::max({report.peak_temp_bytes, tiles.peak_temp_bytes, folder_bytes(folder.path())});
     watch.lap("tiles");
     const WidenResult widened = run_widen_stage(plan, tiles.unproven, analysis, folder.path(), store, sink, cancel);
     report.isolated = tiles.isolated + widened.isolated;

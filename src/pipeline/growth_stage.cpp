@@ -34,7 +34,7 @@ GrowthResult grow_segments(io::InputSet& inputs, const GrowthSetup& setup, merge
     tiling::TileStore store(setup.folder, job.survey.lattice, job.tiles, "");
     MemoryBudget budget(job.memory.tiles_bytes);
     const TileStageResult tiles = run_tile_stage(inputs, job, analysis, setup.folder, store, budget, progress, cancel);
-    result.peak_temp_bytes = std::max(tiles.spooled_bytes, folder_bytes(setup.folder));
+    result.peak_temp_bytes = std::max(tiles.peak_temp_bytes, folder_bytes(setup.folder));
     setup.watch.lap("tiles");
     const WidenResult widened = run_widen_stage(job, tiles.unproven, analysis, setup.folder, store, progress, cancel);
     result.isolated = tiles.isolated + widened.isolated;

@@ -52,7 +52,7 @@ OutlineResult outline_segments(io::InputSet& inputs, TileJob& job, const Outline
     tiling::TileStore store(setup.folder, job.survey.lattice, job.tiles, "");
     MemoryBudget budget(job.memory.tiles_bytes);
     const TileStageResult tiles = run_tile_stage(inputs, job, analysis, setup.folder, store, budget, progress, cancel);
-    result.peak_temp_bytes = std::max(tiles.spooled_bytes, folder_bytes(setup.folder));
+    result.peak_temp_bytes = std::max(tiles.peak_temp_bytes, folder_bytes(setup.folder));
     for (std::size_t tile = 0; tile < job.tiles.tiles.size(); ++tile) store.remove(tile);
   }
   release_free_memory();

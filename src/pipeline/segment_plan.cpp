@@ -41,6 +41,7 @@ TileJob plan_job(tiling::Survey survey, const SegmentRequest& request, SegmentPa
   TileNeeds needs;
   needs.halo = [&](double spacing) { return segment_halo(parameters, spacing); };
   needs.max_radius = (parameters.published ? 2.0 : 3.0) * parameters.reach();
+  needs.asks_again = true;
   // Scans have 2 to 10 % of their points on the frontier; half of them is more than real scans have.
   const double frontier_bytes = 4.0 * static_cast<double>(4 + parameters.most_neighbours());
   needs.likely_result_bytes_per_point = 0.06 * frontier_bytes;

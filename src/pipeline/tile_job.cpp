@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "core/error.h"
@@ -54,6 +55,11 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, const RunRequest& reque
   tiles.max_radius = needs.max_radius;
   tiles.whole_halo = needs.whole_halo;
   job.tiles = tiling::plan_tiles(job.survey, tiles);
+  job.asks_again = needs.asks_again;
+  constexpr double kRounding = 8.0;  // Reaches are rounded up, here and there by a step.
+  job.farthest_steps =
+      needs.whole_halo ? 0
+                       : static_cast<std::int64_t>(std::ceil(needs.max_radius / job.survey.lattice.step + kRounding));
 
   // Few tiles leave threads idle: then one tile at a time uses all of them inside.
   if (job.tiles.tiles.size() < 4 * static_cast<std::size_t>(job.memory.tile_workers)) job.memory.tile_workers = 1;

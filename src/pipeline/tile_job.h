@@ -23,6 +23,8 @@ struct TileJob {
   MemoryRequest memory_request;
   MemoryPlan memory;  ///< plan_memory(memory_request).
   tiling::TilePlan tiles;
+  std::int64_t farthest_steps = 0;  ///< No query reaches farther than this; 0: halos are whole.
+  bool asks_again = false;          ///< See TileNeeds.
   std::uint64_t predicted_peak_bytes = 0;
   std::uint64_t predicted_temp_bytes = 0;
 };
@@ -32,9 +34,10 @@ struct TileNeeds {
   std::function<double(double spacing)> halo;  ///< See tiling::PlanRequest.
   double max_radius = 0.0;
   bool whole_halo = false;
+  bool asks_again = false;  ///< A query that is asked again may be unproven again, with a greater reach.
   /// On disk, per point of a tile: its record in the spool or, a little less, in the tile file that takes the spool's
   /// place. Both exist of the few tiles that are being built.
-  double stored_bytes_per_point = tiling::kSpoolRecordBytes;
+  double stored_bytes_per_point = 15.0;
   double halo_fill = 1.0;  ///< Plans count the cells that a halo meets whole; this share of their points lies in it.
   /// On disk, of results: what scans usually need, and what is asked of the disk before work.
   double likely_result_bytes_per_point = 2.5;  ///< 48 for one point in twenty.

@@ -3,12 +3,15 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 
 #include "core/file_descriptor.h"
 #include "core/parallel.h"
 #include "core/process_memory.h"
+#include "pipeline/run_support.h"
+#include "pipeline/tile_retirement.h"
 #include "tiling/partition.h"
 
 namespace arris::pipeline {
@@ -40,6 +43,40 @@ class TileProgress {
   std::uint64_t held_back_ = 0;
 };
 
+/// Takes tiles out of the store when they are done with, and looks at the folder now and then.
+class DiskKeeper {
+ public:
+  DiskKeeper(const TileJob& job, const std::filesystem::path& folder, tiling::TileStore& store)
+      : folder_(folder),
+        store_(store),
+        retirement_(job.tiles, job.farthest_steps, job.asks_again),
+        tiles_per_look_(1 + job.tiles.tiles.size() / kLooks) {}
+
+  void analysed(std::size_t tile, std::span<const UnprovenQuery> unproven) {
+    const std::lock_guard lock(mutex_);
+    if (++analysed_ % tiles_per_look_ == 0) look();
+    for (const std::size_t gone : retirement_.analysed(tile, unproven)) store_.remove(gone);
+  }
+  /// All points are routed.
+  void routed() {
+    const std::lock_guard lock(mutex_);
+    look();
+  }
+  std::uint64_t peak_bytes() const { return peak_bytes_; }
+
+ private:
+  static constexpr std::size_t kLooks = 64;
+  void look() { peak_bytes_ = std::max(peak_bytes_, folder_bytes(folder_)); }
+
+  std::mutex mutex_;
+  const std::filesystem::path& folder_;
+  tiling::TileStore& store_;
+  TileRetirement retirement_;
+  std::size_t tiles_per_look_;
+  std::size_t analysed_ = 0;
+  std::uint64_t peak_bytes_ = 0;
+};
+
 }  // namespace
 
 void write_queries(const std::filesystem::path& path, const std::vector<UnprovenQuery>& queries) {
@@ -61,6 +98,7 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const T
   stage.unproven.assign(job.tiles.tiles.size(), 0);
   std::atomic<std::uint64_t> isolated{0};
   TileProgress tile_progress(progress);
+  DiskKeeper disk(job, folder, store);
 
   const auto analyse = [&](std::size_t tile) {
     cancel.check();
@@ -77,6 +115,7 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const T
       write_queries(folder / fmt::format("{}.queries", tile), outcome.unproven);
       stage.unproven[tile] = outcome.unproven.size();
     }
+    disk.analysed(tile, outcome.unproven);
     isolated += outcome.isolated;
     release_free_memory();
     tile_progress.done(planned.core_points);
@@ -87,12 +126,13 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const T
     if (workers.failed()) workers.wait();  // Rethrows.
     workers.run([&, tile] { analyse(tile); });
   };
-  const tiling::PartitionResult partition = tiling::partition_points(
-      inputs, job.survey, job.tiles, {folder, job.memory.spool_buffer_bytes}, closed, progress, cancel);
+  tiling::partition_points(inputs, job.survey, job.tiles, {folder, job.memory.spool_buffer_bytes}, closed, progress,
+                           cancel);
+  disk.routed();
   tile_progress.start(job.survey.points());
   workers.wait();
   stage.isolated = isolated;
-  stage.spooled_bytes = partition.spooled_bytes;
+  stage.peak_temp_bytes = disk.peak_bytes();
   return stage;
 }
 

@@ -16,12 +16,12 @@ namespace arris::pipeline {
 struct TileStageResult {
   std::vector<std::uint64_t> unproven;  ///< Per tile: queries in "<tile>.queries" that need a wider view.
   std::uint64_t isolated = 0;
-  std::uint64_t spooled_bytes = 0;
+  std::uint64_t peak_temp_bytes = 0;  ///< Of all files in the folder.
 };
 
 /// Concurrency: the caller's thread routes points and enqueues closed tiles; `tile_workers` threads build, load and
 /// analyse them, each holding a reservation of its predicted bytes. Spools of waiting tiles are on disk, so the queue
-/// costs no memory.
+/// costs no memory. Tile files that no query can need any more are gone (TileRetirement).
 TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const TileAnalysis& analysis,
                                const std::filesystem::path& folder, tiling::TileStore& store, MemoryBudget& budget,
                                ProgressSink& progress, const CancelToken& cancel);

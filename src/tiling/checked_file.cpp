@@ -115,13 +115,25 @@ std::size_t FileReader::read(std::span<std::byte> buffer) {
 void FileReader::read_exactly(std::span<std::byte> buffer) {
   while (!buffer.empty()) {
     const std::size_t got = read(buffer);
-    if (got == 0) {
-      throw IoError(
-          fmt::format("{}: ended early; the file was damaged after it was written, run again with --no-resume",
-                      printable(path_.string())));
-    }
+    if (got == 0) throw_ended_early();
     buffer = buffer.subspan(got);
   }
+}
+
+void FileReader::read_exactly_at(std::uint64_t offset, std::span<std::byte> buffer) const {
+  while (!buffer.empty()) {
+    const ssize_t got = ::pread(descriptor_, buffer.data(), buffer.size(), static_cast<off_t>(offset));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw_io_error(path_, "read", errno);
+    if (got == 0) throw_ended_early();
+    buffer = buffer.subspan(static_cast<std::size_t>(got));
+    offset += static_cast<std::uint64_t>(got);
+  }
+}
+
+void FileReader::throw_ended_early() const {
+  throw IoError(fmt::format("{}: ended early; the file was damaged after it was written, run again with --no-resume",
+                            printable(path_.string())));
 }
 
 HashingSource::HashingSource(FileReader& file)

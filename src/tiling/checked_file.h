@@ -46,8 +46,12 @@ class FileReader {
   std::size_t read(std::span<std::byte> buffer);
   /// Fills the buffer or throws.
   void read_exactly(std::span<std::byte> buffer);
+  /// The same from a place of its own; where read() goes on stays as it is.
+  void read_exactly_at(std::uint64_t offset, std::span<std::byte> buffer) const;
 
  private:
+  [[noreturn]] void throw_ended_early() const;
+
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::uint64_t size_bytes_ = 0;

@@ -15,7 +15,8 @@ constexpr const char* kChanged = "an input was changed while it was being read; 
 SpoolWriter::Limits spool_limits(const TilePlan& plan, const PartitionOptions& options) {
   SpoolWriter::Limits limits;
   limits.buffer_bytes = options.buffer_bytes;
-  for (const PlannedTile& tile : plan.tiles) limits.expected_bytes += tile.covered_points * kSpoolRecordBytes;
+  for (const PlannedTile& tile : plan.tiles)
+    limits.expected_bytes += static_cast<std::uint64_t>(kSpoolBytesPerPoint * static_cast<double>(tile.covered_points));
   return limits;
 }
 
@@ -93,7 +94,7 @@ PartitionResult Partitioner::finish() {
   for (std::size_t tile = 0; tile < impl.untouched.size(); ++tile) {
     if (impl.untouched[tile]) impl.close(tile);
   }
-  return {impl.spool.records(), impl.spool.records() * kSpoolRecordBytes};
+  return {impl.spool.points(), impl.spool.written_bytes()};
 }
 
 PartitionResult partition_points(io::InputSet& inputs, const Survey& survey, const TilePlan& plan,

@@ -18,14 +18,17 @@ namespace arris::tiling {
 namespace {
 
 constexpr std::size_t kLargestBlockBytes = 32 * 1024;
-constexpr std::size_t kReadRecords = 16 * 1024;
-static_assert(sizeof(LatticePoint) == 12, "a LatticePoint is copied into a record as it is");
+
+/// Before the packed points of a block. A file ends with the number of all its points (uint64).
+struct BlockHead {
+  std::uint32_t points, bytes;
+};
 
 // Two blocks per tile where the pool allows it, so that scattered input is not written in crumbs.
-std::uint32_t records_per_block(std::size_t buffer_bytes, std::size_t tiles) {
+std::uint32_t points_per_block(std::size_t buffer_bytes, std::size_t tiles) {
   const std::size_t share = buffer_bytes / (2 * std::max<std::size_t>(tiles, 1));
   const std::size_t bytes = std::min({std::max<std::size_t>(share, 1024), kLargestBlockBytes, buffer_bytes});
-  return static_cast<std::uint32_t>(std::max<std::size_t>(bytes / kSpoolRecordBytes, 1));
+  return static_cast<std::uint32_t>(std::max<std::size_t>(bytes / sizeof(SpooledPoint), 1));
 }
 
 }  // namespace
@@ -37,12 +40,13 @@ std::filesystem::path spool_path(const std::filesystem::path& folder, std::size_
 SpoolWriter::SpoolWriter(std::filesystem::path folder, std::size_t tiles, const Limits& limits)
     : folder_(std::move(folder)),
       limits_(limits),
-      block_records_(records_per_block(limits.buffer_bytes, tiles)),
-      tiles_(tiles) {
-  const std::size_t block_bytes = block_records_ * kSpoolRecordBytes;
+      block_points_(points_per_block(limits.buffer_bytes, tiles)),
+      tiles_(tiles),
+      packed_(sizeof(BlockHead) + block_points_ * kMostPackedBytes + kPackingSlackBytes) {
+  const std::size_t block_bytes = block_points_ * sizeof(SpooledPoint);
   const std::size_t blocks =
       std::clamp<std::size_t>(limits.buffer_bytes / block_bytes, 1, std::max<std::size_t>(tiles, 1));
-  pool_ = std::make_unique_for_overwrite<std::byte[]>(blocks * block_bytes);
+  pool_ = std::make_unique_for_overwrite<SpooledPoint[]>(blocks * block_points_);
   block_owner_.resize(blocks);
   for (std::size_t block = blocks; block > 0; --block) free_blocks_.push_back(static_cast<std::uint32_t>(block - 1));
 }
@@ -53,19 +57,15 @@ SpoolWriter::~SpoolWriter() {
 
 void SpoolWriter::append(std::size_t tile, std::span<const LatticePoint> points, std::uint64_t first_id) {
   Tile& state = tiles_[tile];
-  records_ += points.size();
+  points_ += points.size();
   for (std::size_t done = 0; done < points.size();) {
     if (state.block == kNone) acquire_block(tile);
-    const std::size_t batch = std::min<std::size_t>(block_records_ - state.used, points.size() - done);
-    std::byte* out = pool_.get() + (std::size_t{state.block} * block_records_ + state.used) * kSpoolRecordBytes;
-    for (std::size_t i = done; i < done + batch; ++i, out += kSpoolRecordBytes) {
-      const std::uint64_t id = first_id + i;
-      std::memcpy(out, &points[i], sizeof(LatticePoint));
-      std::memcpy(out + sizeof(LatticePoint), &id, sizeof(id));
-    }
+    const std::size_t batch = std::min<std::size_t>(block_points_ - state.used, points.size() - done);
+    SpooledPoint* const out = pool_.get() + std::size_t{state.block} * block_points_ + state.used;
+    for (std::size_t i = 0; i < batch; ++i) out[i] = {points[done + i], first_id + done + i};
     done += batch;
     state.used += static_cast<std::uint32_t>(batch);
-    if (state.used == block_records_) flush(tile);  // The block stays: more points are likely.
+    if (state.used == block_points_) flush(tile);  // The block stays: more points are likely.
   }
 }
 
@@ -86,18 +86,24 @@ void SpoolWriter::acquire_block(std::size_t tile) {
 void SpoolWriter::flush(std::size_t tile) {
   Tile& state = tiles_[tile];
   if (state.used == 0) return;
+  const std::span block(pool_.get() + std::size_t{state.block} * block_points_, state.used);
+  const std::size_t bytes = pack_points(block, packed_.data() + sizeof(BlockHead));
+  const BlockHead head{state.used, static_cast<std::uint32_t>(bytes)};
+  std::memcpy(packed_.data(), &head, sizeof(head));
+  write(tile, std::span(packed_).first(sizeof(head) + bytes));
+  state.points += state.used;
+  state.used = 0;
+}
+
+void SpoolWriter::write(std::size_t tile, std::span<const std::byte> bytes) {
   const int descriptor = open_file(tile);
-  const std::byte* data = pool_.get() + std::size_t{state.block} * block_records_ * kSpoolRecordBytes;
-  std::size_t left = std::size_t{state.used} * kSpoolRecordBytes;
-  while (left > 0) {
-    const ssize_t wrote = ::write(descriptor, data, left);
+  while (!bytes.empty()) {
+    const ssize_t wrote = ::write(descriptor, bytes.data(), bytes.size());
     if (wrote < 0 && errno == EINTR) continue;
     if (wrote <= 0) fail(tile, "write", wrote == 0 ? ENOSPC : errno);
-    data += wrote;
-    left -= static_cast<std::size_t>(wrote);
+    bytes = bytes.subspan(static_cast<std::size_t>(wrote));
     written_bytes_ += static_cast<std::uint64_t>(wrote);
   }
-  state.used = 0;
 }
 
 int SpoolWriter::open_file(std::size_t tile) {
@@ -124,8 +130,8 @@ void SpoolWriter::close(std::size_t tile) {
   flush(tile);
   Tile& state = tiles_[tile];
   if (state.block != kNone) free_blocks_.push_back(std::exchange(state.block, kNone));
-  if (!state.created) open_file(tile);
-  if (state.descriptor >= 0) close_file(tile);
+  write(tile, std::as_bytes(std::span(&state.points, 1)));
+  close_file(tile);
 }
 
 void SpoolWriter::fail(std::size_t tile, const char* what, int reason) const {
@@ -136,26 +142,34 @@ void SpoolWriter::fail(std::size_t tile, const char* what, int reason) const {
 void read_spool(const std::filesystem::path& path, std::vector<LatticePoint>& positions,
                 std::vector<std::uint64_t>& ids) {
   FileReader file(path);
-  if (file.size_bytes() % kSpoolRecordBytes != 0) {
+  const auto require = [&](bool sound) {
+    if (sound) return;
     throw IoError(
-        fmt::format("{}: its {} bytes are not a whole number of {}-byte records; the file was damaged after it was "
-                    "written, run again with --no-resume",
-                    printable(path.string()), file.size_bytes(), kSpoolRecordBytes));
+        fmt::format("{}: its {} bytes are not those of a spool; the file was damaged after it was written, "
+                    "run again with --no-resume",
+                    printable(path.string()), file.size_bytes()));
+  };
+  std::uint64_t points = 0;
+  require(file.size_bytes() >= sizeof(points));
+  file.read_exactly_at(file.size_bytes() - sizeof(points), std::as_writable_bytes(std::span(&points, 1)));
+  require(points <= file.size_bytes() / kLeastPackedBytes);
+  positions.resize(points);
+  ids.resize(points);
+  std::vector<std::byte> packed;
+  for (std::size_t done = 0; done < points;) {
+    BlockHead head{};
+    file.read_exactly(std::as_writable_bytes(std::span(&head, 1)));
+    require(head.points > 0 && head.points <= points - done && head.bytes <= file.size_bytes());
+    packed.resize(head.bytes + kPackingSlackBytes);
+    const std::span bytes = std::span(packed).first(head.bytes);
+    file.read_exactly(bytes);
+    require(unpack_points(bytes, std::span(positions).subspan(done, head.points),
+                          std::span(ids).subspan(done, head.points)));
+    done += head.points;
   }
-  const std::size_t count = file.size_bytes() / kSpoolRecordBytes;
-  positions.resize(count);
-  ids.resize(count);
-  std::vector<std::byte> buffer(std::min(count, kReadRecords) * kSpoolRecordBytes);
-  for (std::size_t done = 0; done < count;) {
-    const std::size_t batch = std::min(count - done, kReadRecords);
-    file.read_exactly(std::span(buffer).first(batch * kSpoolRecordBytes));
-    const std::byte* in = buffer.data();
-    for (std::size_t i = done; i < done + batch; ++i, in += kSpoolRecordBytes) {
-      std::memcpy(&positions[i], in, sizeof(LatticePoint));
-      std::memcpy(&ids[i], in + sizeof(LatticePoint), sizeof(std::uint64_t));
-    }
-    done += batch;
-  }
+  file.read_exactly(std::as_writable_bytes(std::span(&points, 1)));
+  std::byte beyond{};
+  require(points == positions.size() && file.read(std::span(&beyond, 1)) == 0);
 }
 
 }  // namespace arris::tiling

@@ -4,11 +4,11 @@ import argparse
 import json
 import os
 import statistics
-import subprocess
 import sys
 from types import SimpleNamespace
 
 from . import report
+from .clouds import make_cloud
 from .jobs import jobs_for
 from .measure import Failure, run
 
@@ -27,16 +27,6 @@ def parse(arguments):
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--only", default="", help="jobs whose task or name has this in it")
     return parser.parse_args(arguments)
-
-
-def make_cloud(places, millions):
-    points = round(millions * 1e6)
-    path = os.path.join(places.work, f"town_{millions:g}M.las")
-    arris = os.path.join(places.bin, "arris")
-    if not os.path.exists(path):
-        subprocess.run([arris, "synth", "town", "--points", str(points), "--noise", "2mm", "-o", path, "-q"], check=True)
-    told = json.loads(subprocess.run([arris, "info", "--json", path], check=True, capture_output=True).stdout)["files"][0]
-    return SimpleNamespace(path=path, millions=millions, points=told["points"], spacing=told["spacing"])
 
 
 def measure(job, places, settings):
