@@ -1,6 +1,5 @@
 #include "merge/frontier_coding.h"
 
-#include <algorithm>
 #include <array>
 
 #include "features/segment/tile_growth.h"
@@ -11,9 +10,6 @@ namespace {
 constexpr std::size_t kRecordHeadWords = 4;
 /// Stands before the bytes of an id that is not among the recent ones.
 constexpr std::uint32_t kNewId = 255;
-/// Beside the number of neighbours: an id that is there often follows, and a bit per neighbour that has it.
-constexpr std::uint32_t kHasOften = 0x80;
-constexpr std::size_t kMostCount = 0x7f;
 
 /// The last kNewId different ids, in places that are used in turn.
 class RecentIds {
@@ -42,21 +38,6 @@ std::uint32_t unfolded(std::uint32_t number) {
   return (number >> 1) ^ (0U - (number & 1));
 }
 
-std::size_t mask_bytes(std::size_t count) {
-  return (count + 7) / 8;
-}
-
-/// What more than half of the ids are, if there is such a one; else one of them.
-std::uint32_t majority(std::span<const std::uint32_t> ids) {
-  std::uint32_t id = 0;
-  std::size_t lead = 0;
-  for (const std::uint32_t other : ids) {
-    if (lead == 0) id = other;
-    lead = other == id ? lead + 1 : lead - 1;
-  }
-  return id;
-}
-
 class Encoder {
  public:
   explicit Encoder(std::vector<std::byte>& out) : out_(out) {}
@@ -71,26 +52,6 @@ class Encoder {
     put_byte(kNewId);
     put_number(folded(id - recent_.last_new()));
     place = static_cast<std::uint8_t>(recent_.add(id));
-  }
-  void put_neighbours(std::span<const std::uint32_t> ids) {
-    const std::uint32_t often = majority(ids);
-    const auto times = static_cast<std::size_t>(std::count(ids.begin(), ids.end(), often));
-    const auto count = static_cast<std::uint32_t>(ids.size());
-    if (times <= 1 + mask_bytes(count)) {
-      put_byte(count);
-      for (const std::uint32_t id : ids) put_id(id);
-      return;
-    }
-    put_byte(count | kHasOften);
-    put_id(often);
-    for (std::size_t first = 0; first < count; first += 8) {
-      std::uint32_t bits = 0;
-      for (std::size_t i = first; i < std::min<std::size_t>(first + 8, count); ++i)
-        bits |= std::uint32_t{ids[i] == often} << (i - first);
-      put_byte(bits);
-    }
-    for (const std::uint32_t id : ids)
-      if (id != often) put_id(id);
   }
   void put_number(std::uint32_t number) {
     for (; number >= 0x80; number >>= 7) put_byte((number & 0x7f) | 0x80);
@@ -115,17 +76,6 @@ class Decoder {
     const std::uint32_t id = recent_.last_new() + unfolded(number());
     recent_.add(id);
     return id;
-  }
-  /// @return how many.
-  std::size_t neighbours(std::array<std::uint32_t, kMostCount>& ids) {
-    const std::uint32_t head = byte();
-    const std::size_t count = head & kMostCount;
-    std::array<std::uint32_t, kMostCount / 8 + 1> has_often{};
-    const std::uint32_t often = (head & kHasOften) != 0 ? id() : 0;
-    if ((head & kHasOften) != 0)
-      for (std::size_t i = 0; i < mask_bytes(count); ++i) has_often[i] = byte();
-    for (std::size_t i = 0; i < count; ++i) ids[i] = (has_often[i / 8] >> i % 8 & 1) != 0 ? often : id();
-    return count;
   }
   std::uint32_t number() {
     std::uint32_t result = 0;
@@ -179,7 +129,8 @@ void encode_frontier(std::span<const std::uint32_t> words, std::size_t stride, s
     }
     std::size_t count = stride - kRecordHeadWords;
     while (count > 0 && record[kRecordHeadWords + count - 1] == TileGrowth::kNoId) --count;
-    encoder.put_neighbours(record.subspan(kRecordHeadWords, count));
+    encoder.put_byte(static_cast<std::uint32_t>(count));
+    for (std::size_t i = 0; i < count; ++i) encoder.put_id(record[kRecordHeadWords + i]);
   }
 }
 
@@ -188,11 +139,12 @@ bool decode_frontier(std::span<const std::byte> bytes, std::size_t records, cons
   block.clear();
   Decoder decoder(bytes);
   std::array<std::uint32_t, 3> position{};
-  std::array<std::uint32_t, kMostCount> neighbours;
+  std::array<std::uint32_t, 256> neighbours;
   for (std::size_t i = 0; i < records && decoder.sound(); ++i) {
     const std::uint32_t id = decoder.id();
     for (std::uint32_t& c : position) c += unfolded(decoder.number());
-    const std::size_t count = decoder.neighbours(neighbours);
+    const std::uint32_t count = decoder.byte();
+    for (std::uint32_t n = 0; n < count; ++n) neighbours[n] = decoder.id();
     if (!dropped.empty() && dropped[i]) continue;
     block.add({id,
                {static_cast<std::int32_t>(position[0]), static_cast<std::int32_t>(position[1]),

@@ -39,10 +39,9 @@ class FrontierBlock {
 };
 
 /// Appends the bytes of records to `out`. Ids that were among the last few hundred different ones take a byte, others
-/// their difference from the last such one; an id that a record has often is stored once, with a bit per neighbour;
-/// positions are differences from the one before. About 10 bytes and one per neighbour in the order of a tile's points.
-/// Any order is allowed.
-/// @param words   TileGrowth::frontier: (4 + k) words each. @param stride  4 + k, k < 128.
+/// their difference from the last such one; positions their difference from the one before: about 10 bytes and one and
+/// a half per neighbour in the order of a tile's points. Any order is allowed.
+/// @param words   TileGrowth::frontier: (4 + k) words each. @param stride  4 + k, k < 256.
 void encode_frontier(std::span<const std::uint32_t> words, std::size_t stride, std::vector<std::byte>& out);
 
 /// The reverse, of what one call appended. @param dropped  per record, or empty: these are left out. @return whether

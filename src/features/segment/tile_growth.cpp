@@ -16,8 +16,6 @@ namespace arris {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
-constexpr std::uint32_t kNoSlot = 0xffffffffU;
-constexpr std::uint32_t kInside = 0x80000000U;  ///< Beside a slot: tiles have far fewer.
 
 /// Works out one tile. Points go by their slots in the tree.
 class Grower {
@@ -241,32 +239,17 @@ class Grower {
     return true;
   }
 
-  /// Points inside one component all have its label for good: each component's first one stands for all of them.
-  std::vector<std::uint32_t> labels_alike() const {
-    std::vector<std::uint32_t> first(growth_.sizes.size() + 1, kNoSlot), alike(tree_.size());
-    for (std::uint32_t slot = 0; slot < tree_.size(); ++slot) {
-      alike[slot] = slot;
-      if (!is_query_[slot] || !inside_component(slot)) continue;
-      std::uint32_t& of_component = first[component_[slot]];
-      if (of_component == kNoSlot) of_component = slot;
-      alike[slot] = kInside | of_component;
-    }
-    return alike;
-  }
-
   void write_frontier(const FrontierSink& sink) {
     constexpr std::size_t kBlockWords = 1 << 16;
     const std::size_t stride = parameters_.most_neighbours();
-    const std::vector<std::uint32_t> alike = labels_alike();
     std::vector<std::uint32_t> words;
     for_each_query([&](std::uint32_t slot) {
-      if (alike[slot] & kInside) return;
+      if (inside_component(slot)) return;
       const LatticePoint p = tree_.position(slot);
       words.insert(words.end(), {static_cast<std::uint32_t>(tree_.id(slot)), static_cast<std::uint32_t>(p.x),
                                  static_cast<std::uint32_t>(p.y), static_cast<std::uint32_t>(p.z)});
       const auto neighbours = points_.neighbours(slot);
-      for (const std::uint32_t neighbour : neighbours)
-        words.push_back(static_cast<std::uint32_t>(tree_.id(alike[neighbour] & ~kInside)));
+      for (const std::uint32_t neighbour : neighbours) words.push_back(static_cast<std::uint32_t>(tree_.id(neighbour)));
       words.insert(words.end(), stride - neighbours.size(), TileGrowth::kNoId);
       if (words.size() < kBlockWords) return;
       sink(words);

@@ -54,9 +54,8 @@ struct TileGrowth {
 };
 
 /// Takes records of queries that may have a neighbour of another segment or none, (4 + k) words each: id, x, y, z, then
-/// the ids of the neighbours (of a query inside a component, with no neighbour of another one: the id of one such query
-/// of that component, whose segment is the same for good), filled up with TileGrowth::kNoId; all queries that are in no
-/// component of least_component() or more are among them. Called several times, by one thread.
+/// the ids of the neighbours, filled up with TileGrowth::kNoId; all queries that are in no component of
+/// least_component() or more are among them. Called several times, by one thread.
 using FrontierSink = std::function<void(std::span<const std::uint32_t> records)>;
 
 /// @param intensities  0 to 255 per entry of tile.positions, or empty.
