@@ -25,7 +25,7 @@ double most_frontier_bytes_per_point(const SegmentParameters& parameters) {
 }
 
 double frontier_sample(std::uint64_t points) {
-  return std::min(150'000.0, 0.015 * static_cast<double>(points));
+  return std::clamp(0.015 * static_cast<double>(points), 20'000.0, 150'000.0);
 }
 
 double frontier_bytes_per_point(const CellSample& sample, std::span<const std::uint8_t> intensities,
