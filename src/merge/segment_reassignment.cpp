@@ -11,7 +11,7 @@
 namespace arris::merge {
 namespace {
 
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kGrain = 1024;
 
 struct Change {
   std::uint32_t id = 0;
@@ -89,9 +89,9 @@ class Judge {
 
 /// Looks at the points of every segment that have neighbours in another.
 void learn_sides(const SegmentFrontier& frontier, const PointLabels& labels, SegmentSides& sides) {
-  frontier.for_each_block([&](std::span<const std::uint32_t> words) {
-    for (std::size_t i = 0; i < words.size() / frontier.stride(); ++i) {
-      const FrontierPoint point = frontier.point(words, i);
+  frontier.for_each_block([&](const FrontierBlock& points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const FrontierPoint point = points.point(i);
       const std::uint32_t own = labels[point.id];
       if (own == 0) continue;
       for (std::size_t n = 0; n < point.neighbours.size(); ++n) {
@@ -106,15 +106,15 @@ void find_changes(const Judge& judge, const SegmentFrontier& frontier, const Poi
                   tiling::ScratchFile& changes, const CancelToken& cancel) {
   std::vector<std::uint32_t> decided;
   std::vector<Change> block;
-  frontier.for_each_block([&](std::span<const std::uint32_t> words) {
+  frontier.for_each_block([&](const FrontierBlock& points) {
     cancel.check();
-    decided.resize(words.size() / frontier.stride());
+    decided.resize(points.size());
     parallel_for_chunks(decided.size(), kGrain, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) decided[i] = judge.decide(frontier.point(words, i));
+      for (std::size_t i = first; i < last; ++i) decided[i] = judge.decide(points.point(i));
     });
     block.clear();
     for (std::size_t i = 0; i < decided.size(); ++i) {
-      const FrontierPoint point = frontier.point(words, i);
+      const FrontierPoint point = points.point(i);
       if (decided[i] != labels[point.id]) block.push_back({point.id, decided[i], point.position});
     }
     if (!block.empty()) changes.append(std::as_bytes(std::span(block)));

@@ -11,12 +11,15 @@ namespace arris::pipeline {
 struct MethodBytes {
   double per_point = kContourBytesPerPoint;
   double per_thread = kContourBytesPerThread;
+  /// Of its bound, what is likely to be resident of a tile while another one is at its peak.
+  double beside_another = 0.6;
 };
 
 struct MemoryRequest {
   std::uint64_t budget_bytes = 0;
   int threads = 1;
   std::uint64_t kept_bytes = 0;  ///< What will be resident besides, and is not yet.
+  std::uint64_t held_bytes = 0;  ///< What is resident besides program and survey, and stays.
   MethodBytes method{};
 };
 

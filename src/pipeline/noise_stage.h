@@ -1,10 +1,7 @@
 #pragma once
 /// @file Noise of a scan, from some small parts of it.
 
-#include "core/cancel.h"
-#include "core/progress.h"
-#include "io/point_source.h"
-#include "tiling/survey.h"
+#include "pipeline/cell_sample.h"
 
 namespace arris::pipeline {
 
@@ -14,11 +11,10 @@ struct ScanNoise {
   double least_spacing = 0.0;
 };
 
-/// Reads the inputs once and keeps the points of some absolute cells, drawn by a hash of their place: about
-/// kNoiseSample points, so that nothing depends on tiles, budget or order.
-ScanNoise estimate_noise(io::InputSet& inputs, const tiling::Survey& survey, ProgressSink& progress,
-                         const CancelToken& cancel);
+/// Of cells that hold a few hundred points of a surface each, many of them with all their neighbours.
+ScanNoise estimate_noise(const CellSample& sample, const Lattice& lattice);
 
-constexpr double kNoiseSample = 200'000.0;
+constexpr double kNoiseSample = 200'000.0;  ///< Points.
+constexpr double kNoiseCellSpacings = 8.0;
 
 }  // namespace arris::pipeline

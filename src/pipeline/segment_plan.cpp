@@ -2,10 +2,12 @@
 
 #include <memory>
 
+#include "core/process_memory.h"
 #include "features/segment/neighbour_rule.h"
-#include "features/segment/noise_estimate.h"
 #include "features/segment/tile_growth.h"
 #include "merge/point_labels.h"
+#include "pipeline/cell_sample.h"
+#include "pipeline/frontier_estimate.h"
 #include "pipeline/ground_stage.h"
 #include "pipeline/job_plan.h"
 #include "pipeline/noise_stage.h"
@@ -14,30 +16,38 @@
 namespace arris::pipeline {
 namespace {
 
-/// A component of 8 points is as small as most are; their table is in memory.
-constexpr double kComponentBytesPerPoint = 2.0;
+/// The table of components and the links across tiles: scans have a component for 60 points or more, as published for
+/// 10, where points of vegetation are linked one by one.
+constexpr double kComponentBytesPerPoint = 1.0;
+constexpr double kPublishedComponentBytesPerPoint = 2.5;
+/// Most of the time of a tile is the search for neighbours, when most of its bytes are there.
+constexpr double kBesideAnother = 0.75;
 
 /// What a scan of n points keeps in memory besides its tiles.
-std::uint64_t kept_bytes(std::uint64_t points) {
-  const double per_point = merge::kLabelBytesPerPoint + kComponentBytesPerPoint;
+std::uint64_t kept_bytes(std::uint64_t points, bool published) {
+  const double per_point =
+      merge::kLabelBytesPerPoint + (published ? kPublishedComponentBytesPerPoint : kComponentBytesPerPoint);
   return static_cast<std::uint64_t>(per_point * static_cast<double>(points));
 }
 
 TileJob plan_job(io::InputSet& inputs, tiling::Survey survey, const SegmentRequest& request,
-                 SegmentParameters& parameters, std::uint64_t kept, ProgressSink& progress, const CancelToken& cancel) {
+                 SegmentParameters& parameters, double frontier_bytes, ProgressSink& progress,
+                 const CancelToken& cancel) {
+  const std::uint64_t points = inputs.points();
   TileJob job;
   job.survey = std::move(survey);
-  job.memory_request = {
-      request.memory_bytes, request.threads, kept, {growth_bytes_per_point(parameters), kGrowthBytesPerThread}};
+  job.memory_request = {request.memory_bytes,
+                        request.threads,
+                        kept_bytes(points, parameters.published),
+                        parameters.intensity ? points : 0,
+                        {growth_bytes_per_point(parameters), kGrowthBytesPerThread, kBesideAnother}};
   job.memory = plan_memory(job.memory_request);
   TileNeeds needs;
   needs.halo = [&](double spacing) { return segment_halo(parameters, spacing); };
   needs.max_radius = (parameters.published ? 2.0 : 3.0) * parameters.reach();
   needs.asks_again = true;
-  // Scans have 2 to 10 % of their points on the frontier; half of them is more than real scans have.
-  const double frontier_bytes = 4.0 * static_cast<double>(4 + parameters.most_neighbours());
-  needs.likely_result_bytes_per_point = 0.06 * frontier_bytes;
-  needs.most_result_bytes_per_point = 0.5 * frontier_bytes;
+  needs.likely_result_bytes_per_point = frontier_bytes;
+  needs.most_result_bytes_per_point = most_frontier_bytes_per_point(parameters);
   plan_tiles_of(job, needs, inputs, request, progress, cancel);
   return job;
 }
@@ -72,14 +82,19 @@ IntensityTable choose_points(io::InputSet& inputs, const SegmentRequest& request
   return intensities;
 }
 
-/// Unless given, the number of neighbours follows the noise.
-void choose_neighbours(io::InputSet& inputs, const tiling::Survey& survey, SegmentParameters& p, Stopwatch& watch,
-                       ProgressSink& progress, const CancelToken& cancel) {
-  if (!p.adaptive()) return;
-  const ScanNoise found = estimate_noise(inputs, survey, progress, cancel);
-  p.noise = found.noise;
-  if (found.least_spacing > 0.0) p.most_by_noise = neighbours_for(found.noise / found.least_spacing);
-  watch.lap("noise");
+/// Unless given, the number of neighbours follows the noise. @return bytes of the frontier per point.
+double look_at_samples(io::InputSet& inputs, const tiling::Survey& survey, std::span<const std::uint8_t> intensities,
+                       SegmentParameters& p, ProgressSink& progress, const CancelToken& cancel) {
+  progress.phase("noise", inputs.points());
+  std::vector<CellSample> samples{{survey, kFrontierCellSpacings, frontier_sample(survey.points())}};
+  if (p.adaptive()) samples.emplace_back(survey, kNoiseCellSpacings, kNoiseSample);
+  draw_cells(inputs, survey, samples, progress, cancel);
+  if (p.adaptive()) {
+    const ScanNoise found = estimate_noise(samples.back(), survey.lattice);
+    p.noise = found.noise;
+    if (found.least_spacing > 0.0) p.most_by_noise = neighbours_for(found.noise / found.least_spacing);
+  }
+  return frontier_bytes_per_point(samples.front(), intensities, survey.lattice, p);
 }
 
 }  // namespace
@@ -97,9 +112,11 @@ SegmentPlan plan_segment_job(io::InputSet& inputs, const SegmentRequest& request
   if (report.parameters.max_radius == 0.0)
     report.parameters.max_radius = resolve_max_radius(survey, 0.0, report.parameters.radius);
   watch.lap("survey");
-  choose_neighbours(inputs, survey, report.parameters, watch, progress, cancel);
-  plan.job =
-      plan_job(inputs, std::move(survey), request, report.parameters, kept_bytes(inputs.points()), progress, cancel);
+  const double frontier_bytes =
+      look_at_samples(inputs, survey, plan.intensities.of_point, report.parameters, progress, cancel);
+  watch.lap("noise");
+  release_free_memory();
+  plan.job = plan_job(inputs, std::move(survey), request, report.parameters, frontier_bytes, progress, cancel);
   describe_tiles(plan.job, report);
   return plan;
 }

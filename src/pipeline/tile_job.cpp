@@ -35,7 +35,6 @@ tiling::TilePlan plan_tiles_around_crowds(const tiling::Survey& survey, const ti
 std::uint64_t likely_peak_bytes(const TileJob& job) {
   constexpr double kProgramBytes = 40e6;  // All that stays where several tiles take the room of the survey in turn.
   constexpr double kOfTile = 0.92;
-  constexpr double kOfFurtherTiles = 0.6;
   constexpr double kGatherBytes =
       87e6;  // Results of a few million points, records and buffers while outputs are written.
   constexpr double kGatherPoints = 3e6;
@@ -46,10 +45,12 @@ std::uint64_t likely_peak_bytes(const TileJob& job) {
   std::partial_sort(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(most), points.end(), std::greater<>());
   double tiles = 0.0;
   for (std::size_t i = 0; i < most; ++i)
-    tiles += (i == 0 ? 1.0 : kOfFurtherTiles) * kOfTile * static_cast<double>(job.memory.tile_bytes(points[i]));
+    tiles += (i == 0 ? 1.0 : job.memory.method.beside_another) * kOfTile *
+             static_cast<double>(job.memory.tile_bytes(points[i]));
   const double gather = kGatherBytes * std::min(1.0, static_cast<double>(job.survey.points()) / kGatherPoints);
+  const auto held = static_cast<double>(job.memory_request.held_bytes);
   const double stays = points.size() > 1
-                           ? std::min(kProgramBytes, static_cast<double>(job.memory.resident_bytes))
+                           ? std::min(kProgramBytes + held, static_cast<double>(job.memory.resident_bytes))
                            : static_cast<double>(std::max(job.memory.resident_bytes, arris::resident_bytes()));
   const double peak = stays + static_cast<double>(job.memory_request.kept_bytes) + std::max(tiles, gather);
   return static_cast<std::uint64_t>(std::max(peak, kOfPeakSoFar * static_cast<double>(peak_resident_bytes())));

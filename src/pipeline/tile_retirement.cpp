@@ -1,5 +1,7 @@
 #include "pipeline/tile_retirement.h"
 
+#include <algorithm>
+
 namespace arris::pipeline {
 namespace {
 
@@ -38,7 +40,9 @@ void TileRetirement::keep_what_is_reached(std::span<const UnprovenQuery> unprove
   for (const UnprovenQuery& query : unproven) {
     LatticeBox box;
     box.include(query.position);
-    const std::int64_t reach = asks_again_ ? farthest_steps_ : query.reach_steps;
+    std::int64_t reach = query.reach_steps;
+    if (asks_again_)
+      reach = query.most_reach_steps > 0 ? std::min(query.most_reach_steps, farthest_steps_) : farthest_steps_;
     for_each_touching(box.expanded(reach), [&](std::size_t other) { waits_for_[other] = kKept; });
   }
 }

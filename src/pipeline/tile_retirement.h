@@ -19,7 +19,8 @@ namespace arris::pipeline {
 class TileRetirement {
  public:
   /// @param farthest_steps  Chebyshev reach that no query exceeds; 0: there are no unproven queries.
-  /// @param asks_again      queries may turn out to need more than the reach they tell first, up to farthest_steps.
+  /// @param asks_again      queries may turn out to need more than the reach they tell first, up to the most that they
+  ///                        tell, or farthest_steps.
   TileRetirement(const tiling::TilePlan& plan, std::int64_t farthest_steps, bool asks_again);
 
   /// Call once per tile, in any order. @return the tiles whose files may go now.

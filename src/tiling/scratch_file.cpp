@@ -53,15 +53,6 @@ void ScratchFile::read_at(std::uint64_t offset, std::span<std::byte> bytes) cons
   }
 }
 
-void ScratchFile::discard_before(std::uint64_t offset) {
-  constexpr std::uint64_t kPageBytes = 4096;
-  const std::uint64_t end = offset / kPageBytes * kPageBytes;
-  if (end <= discarded_bytes_) return;
-  if (::fallocate(descriptor_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(discarded_bytes_),
-                  static_cast<off_t>(end - discarded_bytes_)) == 0)
-    discarded_bytes_ = end;
-}
-
 void ScratchFile::close() {
   const int descriptor = std::exchange(descriptor_, -1);
   if (descriptor >= 0 && ::close(descriptor) != 0 && errno != EINTR) throw_io_error(path_, "close", errno);

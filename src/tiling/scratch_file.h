@@ -19,8 +19,6 @@ class ScratchFile {
   ScratchFile& operator=(const ScratchFile&) = delete;
 
   void append(std::span<const std::byte> bytes);
-  /// Gives the disk back what lies before `offset`, as far as the file system can; that is not read any more.
-  void discard_before(std::uint64_t offset);
   /// Fills `bytes` or throws.
   void read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
   /// Saves the descriptor while the file waits: close() after append(), reopen() before read_at().
@@ -29,7 +27,6 @@ class ScratchFile {
 
   const std::filesystem::path& path() const { return path_; }
   std::uint64_t size_bytes() const { return size_bytes_; }  ///< As written.
-  std::uint64_t bytes_on_disk() const { return size_bytes_ - discarded_bytes_; }
   /// IoError: the file is not what was written.
   [[noreturn]] void throw_damaged() const;
 
@@ -37,7 +34,6 @@ class ScratchFile {
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::uint64_t size_bytes_ = 0;
-  std::uint64_t discarded_bytes_ = 0;
 };
 
 }  // namespace arris::tiling

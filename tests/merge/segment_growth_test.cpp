@@ -197,7 +197,9 @@ AllTiles in_parts(const Cloud& cloud, std::int64_t halo) {
     const Grown grown = cloud.grow(test::part_of(cloud.tile, core, halo));
     add(grown, cloud, growth, all);
     for (UnprovenQuery query : grown.unproven) {
+      const std::int64_t most = query.most_reach_steps;
       for (;;) {
+        RC_ASSERT(most == 0 || query.reach_steps <= most);
         const TilePoints points = test::part_of(cloud.tile, query);
         const auto entry = std::find(points.ids.begin(), points.ids.end(), query.id) - points.ids.begin();
         const PlacedQuery queries[] = {{static_cast<std::uint32_t>(entry), query.reach_steps}};

@@ -199,9 +199,9 @@ TEST(SegmentFrontier, KeepBorder_DropsWhatIsInsideOneSegment) {
   gable.build([](int c, int) { return c < 0 ? 1U : c == 0 ? 0U : 2U; });
   gable.frontier.keep_border(gable.labels);
   EXPECT_EQ(gable.frontier.records(), 3U * Gable::kLength);
-  gable.frontier.for_each_block([&](std::span<const std::uint32_t> words) {
-    for (std::size_t i = 0; i < words.size() / gable.frontier.stride(); ++i) {
-      const FrontierPoint p = gable.frontier.point(words, i);
+  gable.frontier.for_each_block([&](const FrontierBlock& points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const FrontierPoint p = points.point(i);
       EXPECT_LE(std::abs(p.position.x), Gable::kStep);
       EXPECT_GE(p.neighbours.size(), 3U);
     }

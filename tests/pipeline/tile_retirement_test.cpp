@@ -27,10 +27,11 @@ tiling::TilePlan grid_plan(std::int64_t side) {
   return plan;
 }
 
-UnprovenQuery query_in(const tiling::PlannedTile& tile, std::int64_t reach) {
+UnprovenQuery query_in(const tiling::PlannedTile& tile, std::int64_t reach, std::int64_t most) {
   return {0,
           {static_cast<std::int32_t>(tile.core.min[0] + 50), static_cast<std::int32_t>(tile.core.min[1] + 50), 50},
-          reach};
+          reach,
+          most};
 }
 
 bool reaches(const UnprovenQuery& query, std::int64_t reach, const tiling::PlannedTile& tile) {
@@ -56,13 +57,15 @@ RC_GTEST_PROP(TileRetirement, AnyOrder_FilesGoWhenNoQueryCanReachThem, ()) {
   for (const std::size_t tile : order) {
     std::vector<UnprovenQuery> unproven;
     if (farthest > 0 && random() % 4 == 0)
-      unproven.push_back(query_in(plan.tiles[tile], static_cast<std::int64_t>(random() % farthest)));
+      unproven.push_back(query_in(plan.tiles[tile], static_cast<std::int64_t>(random() % farthest),
+                                  static_cast<std::int64_t>(random() % 3 * random() % (2 * farthest))));
     asked.insert(asked.end(), unproven.begin(), unproven.end());
     analysed.insert(tile);
     for (const std::size_t now : retirement.analysed(tile, unproven)) RC_ASSERT(gone.insert(now).second);
     for (std::size_t t = 0; t < plan.tiles.size(); ++t) {
       const bool may_be_asked = std::any_of(asked.begin(), asked.end(), [&](const UnprovenQuery& query) {
-        return reaches(query, asks_again ? farthest : query.reach_steps, plan.tiles[t]);
+        const std::int64_t most = query.most_reach_steps > 0 ? std::min(query.most_reach_steps, farthest) : farthest;
+        return reaches(query, asks_again ? most : query.reach_steps, plan.tiles[t]);
       });
       bool will_be_asked = false;
       for (std::size_t other = 0; other < plan.tiles.size(); ++other) {

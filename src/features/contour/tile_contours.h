@@ -14,7 +14,8 @@ namespace arris {
 struct UnprovenQuery {
   std::uint64_t id = 0;
   LatticePoint position;
-  std::int64_t reach_steps = 0;  ///< Chebyshev reach: the box position +- reach must be covered.
+  std::int64_t reach_steps = 0;       ///< Chebyshev reach: the box position +- reach must be covered.
+  std::int64_t most_reach_steps = 0;  ///< Region growing: no greater reach will ever be told; 0: not known.
 };
 
 /// An entry of a tile to ask about, of which space is known so far around it.

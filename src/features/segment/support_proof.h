@@ -2,6 +2,7 @@
 /// @file Whether all that a point's growth depends on was seen.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/lattice.h"
@@ -24,6 +25,13 @@ class SupportProof {
   /// first ring that is not, steps: more than now. Repeated, that ends after a few rounds, because no neighbour's ball
   /// is larger than the distance to it and the radius of the ball around the point itself together.
   double reach(std::uint32_t slot, const LatticeBox& covered) const;
+
+  /// Of a query, whatever more of the scan is in sight: once the first ball of this radius is, no reach() is greater
+  /// than the second. None: too few points are in sight to tell.
+  struct Bound {
+    double first = 0.0, most = 0.0;
+  };
+  std::optional<Bound> bound(std::uint32_t slot) const;
 
  private:
   bool inside(std::uint32_t slot, double radius, const LatticeBox& covered) const {

@@ -17,6 +17,9 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;
 
+/// Later sums of distances round differently.
+constexpr double kRoundMore = 1.0 + 1e-8;
+
 /// Works out one tile. Points go by their slots in the tree.
 class Grower {
  public:
@@ -96,13 +99,19 @@ class Grower {
   /// Queries whose support is not whole are none from here on.
   void settle_unproven() {
     const SupportProof proof(tree_, points_, rings());
-    const auto leave = [&](std::uint32_t slot, double reach_steps) {
+    const auto leave = [&](std::uint32_t slot, double reach, double most = 0.0) {
       is_query_[slot] = 0;
-      growth_.unproven.push_back(
-          {tree_.id(slot), tree_.position(slot), static_cast<std::int64_t>(std::ceil(reach_steps * (1.0 + 1e-9))) + 1});
+      const auto steps = [](double r) { return static_cast<std::int64_t>(std::ceil(r * (1.0 + 1e-9))) + 1; };
+      growth_.unproven.push_back({tree_.id(slot), tree_.position(slot), steps(reach), most > 0.0 ? steps(most) : 0});
     };
     if (reach_.empty()) {
-      for (const std::uint32_t slot : proof.unproven(is_query_, covered_)) leave(slot, proof.reach(slot, covered_));
+      for (const std::uint32_t slot : proof.unproven(is_query_, covered_)) {
+        const double reach = proof.reach(slot, covered_);
+        if (const auto bound = proof.bound(slot))
+          leave(slot, std::max(reach, bound->first), std::max(reach, kRoundMore * bound->most));
+        else
+          leave(slot, reach);
+      }
     }
     for (const auto& [slot, reach] : reach_) {
       const LatticePoint p = tree_.position(slot);

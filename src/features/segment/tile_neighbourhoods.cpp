@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "features/neighbourhood/neighbour_search.h"
 #include "features/segment/shape_batches.h"
 
 namespace arris {
@@ -37,9 +36,7 @@ class TileNeighbourhoods::Runner {
   void search_for(std::size_t k, std::span<const std::uint32_t> slots) {
     if (slots.empty()) return;
     if (!searches_[k]) {
-      const auto most_d2 = static_cast<std::uint64_t>(all_.reach_steps_ * all_.reach_steps_);
-      searches_[k] = std::make_unique<NeighbourSearch>(all_.tree_,
-                                                       SearchLimits{k, all_.reach_steps_, most_d2, Arithmetic::kFloat});
+      searches_[k] = std::make_unique<NeighbourSearch>(all_.tree_, all_.limits(k));
     }
     searches_[k]->run(slots, [&](std::uint32_t slot, const Neighbours& found) {
       const std::size_t least = all_.rule_.least();
@@ -104,10 +101,26 @@ void TileNeighbourhoods::compute(const std::vector<std::uint8_t>& wanted) {
   });
 }
 
+SearchLimits TileNeighbourhoods::limits(std::size_t k) const {
+  return {k, reach_steps_, static_cast<std::uint64_t>(reach_steps_ * reach_steps_), Arithmetic::kFloat};
+}
+
 double TileNeighbourhoods::reach_of(std::uint32_t slot) const {
   if (!full(slot)) return reach_steps_;
-  const std::uint32_t last = neighbours(slot).back();
-  return std::sqrt(static_cast<double>(squared_distance(tree_.position(slot), tree_.position(last)))) * (1.0 + 1e-12);
+  return distance(slot, neighbours(slot).back());
+}
+
+double TileNeighbourhoods::distance(std::uint32_t a, std::uint32_t b) const {
+  return std::sqrt(static_cast<double>(squared_distance(tree_.position(a), tree_.position(b)))) * (1.0 + 1e-12);
+}
+
+std::optional<double> TileNeighbourhoods::ball_of_most(std::uint32_t slot) const {
+  std::optional<double> radius;
+  NeighbourSearch search(tree_, limits(rule_.most()));
+  search.run(std::span(&slot, 1), [&](std::uint32_t, const Neighbours& found) {
+    if (found.count == rule_.most()) radius = distance(slot, found.slot[found.count - 1]);
+  });
+  return radius;
 }
 
 }  // namespace arris

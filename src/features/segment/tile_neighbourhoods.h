@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/lattice.h"
+#include "features/neighbourhood/neighbour_search.h"
 #include "features/neighbourhood/point_tree.h"
 #include "features/segment/robust_plane.h"
 #include "features/segment/segment_parameters.h"
@@ -48,9 +50,13 @@ class TileNeighbourhoods {
   /// Distance in steps within which the neighbours must lie, from those found; max_reach_steps() if they are too few.
   double reach_of(std::uint32_t slot) const;
   double max_reach_steps() const { return reach_steps_; }
+  /// The radius of a ball around the point that holds as many others as any point may want; none: they are not in sight.
+  std::optional<double> ball_of_most(std::uint32_t slot) const;
 
  private:
   class Runner;
+  SearchLimits limits(std::size_t k) const;
+  double distance(std::uint32_t a, std::uint32_t b) const;  ///< Rounded up.
 
   const PointTree& tree_;
   NeighbourRule rule_;
