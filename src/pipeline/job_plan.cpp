@@ -13,8 +13,8 @@ namespace {
 
 /// Squares of coordinates within the search radius stay exact.
 constexpr double kMostRadiusSteps = 1 << 29;
-/// On disk where the analysis follows close behind the routing, per stored point: mostly that of tile files. Measured.
-constexpr double kFollowedBytesPerPoint = 15.0;
+/// On disk per stored point where halos are whole: the spool, as tile files go at once. Measured.
+constexpr double kFollowedBytesPerPoint = 6.5;
 constexpr double kZhengResultBytesPerPoint = 6.5;  // 48 for one point in seven.
 
 }  // namespace

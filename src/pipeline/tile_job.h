@@ -35,9 +35,8 @@ struct TileNeeds {
   double max_radius = 0.0;
   bool whole_halo = false;
   bool asks_again = false;  ///< A query that is asked again may be unproven again, with a greater reach.
-  /// On disk, per point of a tile: its record in the spool or, a little less, in the tile file that takes the spool's
-  /// place. Both exist of the few tiles that are being built.
-  double stored_bytes_per_point = 15.0;
+  /// On disk, likely at the peak, per point of a tile: 9 in the spool, then 15 in its tile file until that goes.
+  double stored_bytes_per_point = 14.0;
   double halo_fill = 1.0;  ///< Plans count the cells that a halo meets whole; this share of their points lies in it.
   /// On disk, of results: what scans usually need, and what is asked of the disk before work.
   double likely_result_bytes_per_point = 2.5;  ///< 48 for one point in twenty.
