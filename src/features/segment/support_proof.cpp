@@ -89,9 +89,9 @@ double SupportProof::reach(std::uint32_t slot, const LatticeBox& covered) const 
   return 0.0;
 }
 
-// A ball of radius b around the query that holds as many other points as any point may want, and the query itself, holds
-// as many other points of each point. So a point at distance d finds all its neighbours within d + b, and a ring that
-// ends at r is followed by one that ends at 2 r + b.
+// A ball of radius b around the query that holds as many other points as any point may want, and the query itself,
+// holds as many other points of each point. So a point at distance d finds all its neighbours within d + b, and a ring
+// that ends at r is followed by one that ends at 2 r + b.
 std::optional<SupportProof::Bound> SupportProof::bound(std::uint32_t slot) const {
   const std::optional<double> ball = points_.ball_of_most(slot);
   if (!ball) return std::nullopt;

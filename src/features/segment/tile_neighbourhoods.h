@@ -50,7 +50,8 @@ class TileNeighbourhoods {
   /// Distance in steps within which the neighbours must lie, from those found; max_reach_steps() if they are too few.
   double reach_of(std::uint32_t slot) const;
   double max_reach_steps() const { return reach_steps_; }
-  /// The radius of a ball around the point that holds as many others as any point may want; none: they are not in sight.
+  /// The radius of a ball around the point that holds as many others as any point may want; none: they are not in
+  /// sight.
   std::optional<double> ball_of_most(std::uint32_t slot) const;
 
  private:
