@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A peer of arris extract: Open3D's normals and boundary points of a LAS file, everything in memory.
 
-Usage: open3d_boundary.py SCAN RADIUS. At most 16 neighbours within RADIUS for normals, 30 for boundaries.
+Usage: open3d_boundary.py SCAN RADIUS. 16 neighbours for normals, at most 30 within RADIUS for boundaries.
 Needs Debian's python3-open3d; OMP_NUM_THREADS says how many threads.
 """
 
@@ -30,7 +30,7 @@ def main():
     points = read_points(sys.argv[1])
     radius = float(sys.argv[2])
     cloud = open3d.t.geometry.PointCloud(open3d.core.Tensor(points))
-    cloud.estimate_normals(max_nn=16, radius=radius)
+    cloud.estimate_normals(max_nn=16)
     boundaries, _ = cloud.compute_boundary_points(radius, 30)
     print(f"points {len(points)}, boundary {len(boundaries.point['positions'])}")
 

@@ -52,6 +52,7 @@ def measure_all(cloud, places, settings):
     jobs = [j for j in jobs_for(cloud, places, settings) if settings.only in j.task or settings.only in j.name]
     if cloud.millions > settings.peers_up_to:
         jobs = [j for j in jobs if not j.peer]
+    jobs = [j for j in jobs if cloud.millions <= j.most_millions]
     runs, failed = {}, {}
     for turn in range(settings.runs):
         for job in jobs:

@@ -10,6 +10,7 @@ class Job:
     name: str
     command: list
     peer: bool = True
+    most_millions: float = float("inf")  # Takes too long for more.
     environment: dict = field(default_factory=dict)
 
     @property
@@ -32,7 +33,7 @@ def jobs_for(cloud, places, settings):
     def peer(task, name, program, *arguments, **environment):
         return Job(task, name, [os.path.join(places.bin, program), cloud.path, *arguments], environment=environment)
 
-    radius = f"{12.0 * cloud.spacing:.6g}"
+    radius = f"{3.1 * cloud.spacing:.6g}"  # Holds 30 points of a surface.
     open3d = [os.path.join(places.here, "open3d_boundary.py"), cloud.path, radius]
     return [
         arris("contours", "extract", "--method", "arris"),
@@ -40,7 +41,7 @@ def jobs_for(cloud, places, settings):
         arris("contours", "extract", "--method", "zheng"),
         peer("contours", "PCL normals (16) + boundary (30)", "bench_pcl_peer", threads),
         Job("contours", "Open3D normals (16) + boundary (30)", ["/usr/bin/python3", *open3d],
-            environment={"OMP_NUM_THREADS": threads}),
+            most_millions=5, environment={"OMP_NUM_THREADS": threads}),
         arris("segments", "segment", "-k", "30"),
         arris("segments", "segment"),
         peer("segments", "PCL normals (16) + region growing (30)", "bench_pcl_segment", "30", "7.2", "0.2", "20",
