@@ -37,11 +37,11 @@ Elements read_elements(const char* scan) {
   elements.reserve(info.points);
   for (arris::io::PointBatch batch; source->read(batch, {});) {
     for (std::size_t i = 0; i < batch.count; ++i) {
-      elements.emplace_back(info.scaled_integers ? Kernel::Point_3(batch.ix[i] * info.scale[0],
-                                                                   batch.iy[i] * info.scale[1],
-                                                                   batch.iz[i] * info.scale[2])
-                                                 : Kernel::Point_3(batch.x[i], batch.y[i], batch.z[i]),
-                            Kernel::Vector_3());
+      elements.emplace_back(
+          info.scaled_integers
+              ? Kernel::Point_3(batch.ix[i] * info.scale[0], batch.iy[i] * info.scale[1], batch.iz[i] * info.scale[2])
+              : Kernel::Point_3(batch.x[i], batch.y[i], batch.z[i]),
+          Kernel::Vector_3());
     }
   }
   return elements;
@@ -56,8 +56,8 @@ int run(char** argv) {
       CGAL::parameters::point_map(PointMap()).normal_map(NormalMap()).geom_traits(Kernel()));
   clock.end_stage("normals");
   Neighbours neighbours(elements, static_cast<std::size_t>(std::atoi(argv[3])), PointMap());
-  Plane plane(elements, std::atof(argv[5]), std::atof(argv[4]), static_cast<std::size_t>(std::atoi(argv[6])), PointMap(),
-              NormalMap());
+  Plane plane(elements, std::atof(argv[5]), std::atof(argv[4]), static_cast<std::size_t>(std::atoi(argv[6])),
+              PointMap(), NormalMap());
   Growing growing(elements, neighbours, plane);
   std::vector<std::vector<std::size_t>> segments;
   growing.detect(std::back_inserter(segments));

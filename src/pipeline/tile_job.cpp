@@ -90,10 +90,14 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, io::InputSet& inputs, c
     return static_cast<std::uint64_t>(stored * per_stored + points * per_point) + job.tiles.tiles.size() * per_tile +
            needs.further_temp_bytes;
   };
+  constexpr double kTileFileLikelyBytes = 15.0;  // One of few tiles is much of the scan.
+  const double likely_bytes =
+      std::max(needs.stored_bytes_per_point,
+               kTileFileLikelyBytes / static_cast<double>(std::max<std::size_t>(job.tiles.tiles.size(), 1)));
   const double most_stored = points * job.tiles.duplication;
   const double likely_stored = points * (1.0 + (job.tiles.duplication - 1.0) * needs.halo_fill);
   job.predicted_temp_bytes =
-      bytes(likely_stored, needs.stored_bytes_per_point, needs.likely_result_bytes_per_point, kLikelyBytesPerTile);
+      bytes(likely_stored, likely_bytes, needs.likely_result_bytes_per_point, kLikelyBytesPerTile);
   check_temp_space(bytes(most_stored, needs.stored_bytes_per_point + kTileFileBytesPerPoint,
                          needs.most_result_bytes_per_point, kMostBytesPerTile),
                    request, progress);

@@ -33,9 +33,7 @@ TEST_P(EveryShape, InTwoCuts_KeepsTheBudgetAndGivesTheSameBytes) {
 INSTANTIATE_TEST_SUITE_P(Adversarial, EveryShape,
                          testing::Combine(testing::ValuesIn(adversarial_shapes()),
                                           testing::ValuesIn(adversarial_commands())),
-                         [](const auto& of) {
-                           return std::get<0>(of.param).name + "_" + std::get<1>(of.param).name;
-                         });
+                         [](const auto& of) { return std::get<0>(of.param).name + "_" + std::get<1>(of.param).name; });
 
 /// Tiles of one point each.
 TEST(Adversarial, TilesOfOnePoint_GiveTheSameBytes) {
