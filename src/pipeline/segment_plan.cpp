@@ -46,7 +46,7 @@ TileJob plan_job(io::InputSet& inputs, tiling::Survey survey, const SegmentReque
   needs.halo = [&](double spacing) { return segment_halo(parameters, spacing); };
   needs.max_radius = (parameters.published ? 2.0 : 3.0) * parameters.reach();
   needs.asks_again = true;
-  needs.stored_bytes_per_point = 15.0;  // More tile files wait for queries.
+  needs.stored_bytes_per_point = 15.7;  // More tile files wait for queries.
   needs.likely_result_bytes_per_point = frontier_bytes;
   needs.most_result_bytes_per_point = most_frontier_bytes_per_point(parameters);
   plan_tiles_of(job, needs, inputs, request, progress, cancel);

@@ -43,7 +43,7 @@ def plot(records, path):
     known = [r for r in records if "failed" not in r]
     for number, name in enumerate(dict.fromkeys((r["task"], r["name"]) for r in known)):
         part = [r for r in known if (r["task"], r["name"]) == name]
-        style = {"marker": "o", "markersize": 3.5, "linestyle": "--" if part[0]["peer"] else "-", "color": f"C{number % 10}"}
+        style = {"marker": "o", "markersize": 3.5, "linestyle": "--" if part[0]["peer"] else "-", "color": pyplot.cm.tab20(number)}
         size = [r["points"] for r in part]
         axes[0].plot(size, [1e6 * r["cpu_s"] / r["points"] for r in part], label=name[1], **style)
         axes[1].plot(size, [r["peak_mib"] for r in part], **style)
