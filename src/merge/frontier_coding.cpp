@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/byte_packing.h"
 #include "features/segment/tile_growth.h"
 
 namespace arris::merge {
@@ -30,14 +31,6 @@ class RecentIds {
   std::uint32_t last_new_ = 0;
 };
 
-/// Small numbers of either sign become small ones without.
-std::uint32_t folded(std::uint32_t difference) {
-  return (difference << 1) ^ (0U - (difference >> 31));
-}
-std::uint32_t unfolded(std::uint32_t number) {
-  return (number >> 1) ^ (0U - (number & 1));
-}
-
 class Encoder {
  public:
   explicit Encoder(std::vector<std::byte>& out) : out_(out) {}
@@ -50,7 +43,7 @@ class Encoder {
       return;
     }
     put_byte(kNewId);
-    put_number(folded(id - recent_.last_new()));
+    put_number(zigzag(id, recent_.last_new()));
     place = static_cast<std::uint8_t>(recent_.add(id));
   }
   void put_number(std::uint32_t number) {
@@ -73,7 +66,7 @@ class Decoder {
   std::uint32_t id() {
     const std::uint32_t place = byte();
     if (place != kNewId) return recent_.at(place);
-    const std::uint32_t id = recent_.last_new() + unfolded(number());
+    const std::uint32_t id = unzigzag(number(), recent_.last_new());
     recent_.add(id);
     return id;
   }
@@ -124,7 +117,7 @@ void encode_frontier(std::span<const std::uint32_t> words, std::size_t stride, s
     const std::span<const std::uint32_t> record = words.subspan(begin, stride);
     encoder.put_id(record[0]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      encoder.put_number(folded(record[1 + axis] - before[axis]));
+      encoder.put_number(zigzag(record[1 + axis], before[axis]));
       before[axis] = record[1 + axis];
     }
     std::size_t count = stride - kRecordHeadWords;
@@ -142,7 +135,7 @@ bool decode_frontier(std::span<const std::byte> bytes, std::size_t records, cons
   std::array<std::uint32_t, 256> neighbours;
   for (std::size_t i = 0; i < records && decoder.sound(); ++i) {
     const std::uint32_t id = decoder.id();
-    for (std::uint32_t& c : position) c += unfolded(decoder.number());
+    for (std::uint32_t& c : position) c = unzigzag(decoder.number(), c);
     const std::uint32_t count = decoder.byte();
     for (std::uint32_t n = 0; n < count; ++n) neighbours[n] = decoder.id();
     if (!dropped.empty() && dropped[i]) continue;
