@@ -116,16 +116,11 @@ void add_extract_plan(CLI::App& verb, Session& session) {
   });
 }
 
-void add_segment_plan(CLI::App& verb, Session& session) {
-  auto options = std::make_shared<SegmentPlan>();
-  add_segment_job_options(verb, options->job);
-  verb.add_flag("--json", options->json, "As JSON");
-  verb.callback([options, &session] { session.run = [options, &session] { return run(*options, session); }; });
-}
-
-void add_supervoxel_plan(CLI::App& verb, Session& session) {
-  auto options = std::make_shared<SupervoxelPlan>();
-  add_supervoxel_job_options(verb, options->job);
+/// @param add_options  of the job that is planned.
+template <class Plan, class Job>
+void add_plan_of(CLI::App& verb, void (*add_options)(CLI::App&, Job&), Session& session) {
+  auto options = std::make_shared<Plan>();
+  add_options(verb, options->job);
   verb.add_flag("--json", options->json, "As JSON");
   verb.callback([options, &session] { session.run = [options, &session] { return run(*options, session); }; });
 }
@@ -139,8 +134,10 @@ void add_plan(CLI::App& app, Session& session) {
   add_extract_plan(*verb, session);
   verb->get_option("inputs")->required(false);  // Not those of the verbs below; none at all is refused as bad input.
   verb->require_subcommand(0, 1);
-  add_segment_plan(*verb->add_subcommand("segment", "What segment would do (contours and outlines left out)"), session);
-  add_supervoxel_plan(*verb->add_subcommand("supervoxel", "What supervoxel would do, without colours"), session);
+  add_plan_of<SegmentPlan>(*verb->add_subcommand("segment", "What segment would do (contours and outlines left out)"),
+                           add_segment_job_options, session);
+  add_plan_of<SupervoxelPlan>(*verb->add_subcommand("supervoxel", "What supervoxel would do, without colours"),
+                              add_supervoxel_job_options, session);
 }
 
 }  // namespace arris::tools

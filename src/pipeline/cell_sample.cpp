@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tiling/lattice_mapper.h"
+#include "tiling/mapped_pass.h"
 
 namespace arris::pipeline {
 namespace {
@@ -60,20 +60,14 @@ void CellSample::add(const LatticePoint& p, std::uint64_t id) {
 
 void draw_cells(io::InputSet& inputs, const tiling::Survey& survey, std::span<CellSample> samples,
                 ProgressSink& progress, const CancelToken& cancel) {
-  const tiling::LatticeMapper mapper(inputs.sources(), survey.lattice);
-  io::PointBatch batch;
-  std::vector<LatticePoint> positions;
-  std::vector<tiling::Mapped> outcome;
-  inputs.rewind();
-  while (inputs.read(batch, {})) {
-    cancel.check();
-    mapper.map(batch, inputs.source_index(), positions, outcome);
-    for (CellSample& sample : samples) {
-      for (std::size_t i = 0; i < batch.count; ++i)
-        if (outcome[i] == tiling::Mapped::kOk) sample.add(positions[i], batch.first_id + i);
-    }
-    progress.advance(batch.count);
-  }
+  tiling::for_each_mapped_batch(inputs, survey.lattice, "noise", progress, cancel,
+                                [&](const tiling::MappedPoints& points) {
+                                  tiling::for_each_mapped_run(points.outcome, [&](std::size_t begin, std::size_t end) {
+                                    for (CellSample& sample : samples)
+                                      for (std::size_t i = begin; i < end; ++i)
+                                        sample.add(points.positions[i], points.batch.first_id + i);
+                                  });
+                                });
 }
 
 }  // namespace arris::pipeline

@@ -86,7 +86,6 @@ IntensityTable choose_points(io::InputSet& inputs, const SegmentRequest& request
 /// Unless given, the number of neighbours follows the noise. @return bytes of the frontier per point.
 double look_at_samples(io::InputSet& inputs, const tiling::Survey& survey, std::span<const std::uint8_t> intensities,
                        SegmentParameters& p, ProgressSink& progress, const CancelToken& cancel) {
-  progress.phase("noise", inputs.points());
   std::vector<CellSample> samples{{survey, kFrontierCellSpacings, frontier_sample(survey.points())}};
   if (p.adaptive()) samples.emplace_back(survey, kNoiseCellSpacings, kNoiseSample);
   draw_cells(inputs, survey, samples, progress, cancel);

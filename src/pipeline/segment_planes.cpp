@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "merge/segment_reassignment.h"
-#include "tiling/lattice_mapper.h"
+#include "tiling/mapped_pass.h"
 
 namespace arris::pipeline {
 namespace {
@@ -14,25 +14,16 @@ constexpr double kPi = 3.14159265358979323846;
 /// In the order of ids, so that every segment's origin is its first point.
 merge::SegmentMoments sum_moments(io::InputSet& inputs, const Lattice& lattice, const merge::GrownSegments& grown,
                                   ProgressSink& progress, const CancelToken& cancel) {
-  progress.phase("planes", inputs.points());
   merge::SegmentMoments moments(static_cast<std::uint32_t>(grown.discs.size()));
-  const tiling::LatticeMapper mapper(inputs.sources(), lattice);
-  io::PointBatch batch;
-  std::vector<LatticePoint> positions;
-  std::vector<tiling::Mapped> outcome;
-  inputs.rewind();
-  while (inputs.read(batch, {})) {
-    cancel.check();
-    mapper.map(batch, inputs.source_index(), positions, outcome);
-    for (std::size_t i = 0; i < batch.count; ++i) {
-      const std::uint32_t label = grown.labels[batch.first_id + i];
+  tiling::for_each_mapped_batch(inputs, lattice, "planes", progress, cancel, [&](const tiling::MappedPoints& points) {
+    for (std::size_t i = 0; i < points.positions.size(); ++i) {
+      const std::uint32_t label = grown.labels[points.batch.first_id + i];
       if (label == 0) continue;
-      if (outcome[i] != tiling::Mapped::kOk)
+      if (points.outcome[i] != tiling::Mapped::kOk)
         throw InputError("the inputs changed while they were read; run again when they are complete");
-      moments.add(label, positions[i]);
+      moments.add(label, points.positions[i]);
     }
-    progress.advance(batch.count);
-  }
+  });
   return moments;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "tiling/mapped_pass.h"
 #include "tiling/spool.h"
 #include "tiling/tile_router.h"
 
@@ -101,21 +102,11 @@ PartitionResult partition_points(io::InputSet& inputs, const Survey& survey, con
                                  const PartitionOptions& options, const std::function<void(std::size_t tile)>& closed,
                                  ProgressSink& progress, const CancelToken& cancel) {
   Partitioner partitioner(survey.counts, plan, options, closed);
-  const LatticeMapper mapper(inputs.sources(), survey.lattice);
-  const io::ReadOptions read_options;
-  io::PointBatch batch;
-  std::vector<LatticePoint> positions;
-  std::vector<Mapped> outcome;
-  progress.phase("partition", inputs.points());
-  inputs.rewind();
-  while (inputs.read(batch, read_options)) {
-    cancel.check();
-    mapper.map(batch, inputs.source_index(), positions, outcome);
-    for_each_mapped_run(outcome, [&](std::size_t begin, std::size_t end) {
-      partitioner.add(std::span(positions).subspan(begin, end - begin), batch.first_id + begin);
+  for_each_mapped_batch(inputs, survey.lattice, "partition", progress, cancel, [&](const MappedPoints& points) {
+    for_each_mapped_run(points.outcome, [&](std::size_t begin, std::size_t end) {
+      partitioner.add(points.positions.subspan(begin, end - begin), points.batch.first_id + begin);
     });
-    progress.advance(batch.count);
-  }
+  });
   return partitioner.finish();
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "tiling/lattice_mapper.h"
+#include "tiling/mapped_pass.h"
 
 namespace arris::tiling {
 namespace {
@@ -56,21 +56,11 @@ bool PlanCells::refine(const std::function<void(const Add& add)>& pass) {
 
 bool PlanCells::refine(io::InputSet& inputs, ProgressSink& progress, const CancelToken& cancel) {
   return refine([&](const Add& add) {
-    const LatticeMapper mapper(inputs.sources(), survey_.lattice);
-    const io::ReadOptions read_options;
-    io::PointBatch batch;
-    std::vector<LatticePoint> positions;
-    std::vector<Mapped> outcome;
-    progress.phase("crowded cells", inputs.points());
-    inputs.rewind();
-    while (inputs.read(batch, read_options)) {
-      cancel.check();
-      mapper.map(batch, inputs.source_index(), positions, outcome);
-      for_each_mapped_run(outcome, [&](std::size_t begin, std::size_t end) {
-        add(std::span(positions).subspan(begin, end - begin), 1);
+    for_each_mapped_batch(inputs, survey_.lattice, "crowded cells", progress, cancel, [&](const MappedPoints& points) {
+      for_each_mapped_run(points.outcome, [&](std::size_t begin, std::size_t end) {
+        add(points.positions.subspan(begin, end - begin), 1);
       });
-      progress.advance(batch.count);
-    }
+    });
   });
 }
 

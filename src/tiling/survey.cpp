@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tiling/lattice_choice.h"
+#include "tiling/mapped_pass.h"
 #include "tiling/spacing.h"
 
 namespace arris::tiling {
@@ -33,10 +34,10 @@ void Survey::finish() {
 
 Survey survey_inputs(io::InputSet& inputs, const SurveyOptions& options, ProgressSink& progress,
                      const CancelToken& cancel) {
-  const io::ReadOptions read_options;
-  io::PointBatch batch;
   LatticeChoice choice(inputs.sources(), options.lattice_step);
   if (choice.needs_points()) {
+    const io::ReadOptions read_options;
+    io::PointBatch batch;
     progress.phase("bounds", inputs.points());
     inputs.rewind();
     while (inputs.read(batch, read_options)) {
@@ -48,17 +49,8 @@ Survey survey_inputs(io::InputSet& inputs, const SurveyOptions& options, Progres
 
   Survey survey;
   survey.lattice = choice.lattice();
-  const LatticeMapper mapper(inputs.sources(), survey.lattice);
-  std::vector<LatticePoint> positions;
-  std::vector<Mapped> outcome;
-  progress.phase("survey", inputs.points());
-  inputs.rewind();
-  while (inputs.read(batch, read_options)) {
-    cancel.check();
-    mapper.map(batch, inputs.source_index(), positions, outcome);
-    survey.add(positions, outcome);
-    progress.advance(batch.count);
-  }
+  for_each_mapped_batch(inputs, survey.lattice, "survey", progress, cancel,
+                        [&](const MappedPoints& points) { survey.add(points.positions, points.outcome); });
   survey.finish();
   return survey;
 }

@@ -6,20 +6,13 @@
 #include <map>
 
 #include "tiling/random_cloud.h"
+#include "tiling/survey_of.h"
 #include "tiling/tile_plan.h"
 
 namespace arris::tiling {
 namespace {
 
-Survey survey_of(const std::vector<LatticePoint>& points, std::size_t max_leaves = 8192) {
-  Survey survey;
-  survey.lattice.step = 0.5;
-  survey.counts = CellCounts(0, max_leaves);
-  const std::vector<Mapped> outcome(points.size(), Mapped::kOk);
-  survey.add(points, outcome);
-  survey.finish();
-  return survey;
-}
+using test::survey_of;
 
 std::function<void(const PlanCells::Add&)> pass_over(const std::vector<LatticePoint>& points) {
   return [&points](const PlanCells::Add& add) { add(points, 1); };

@@ -9,19 +9,12 @@
 #include "core/error.h"
 #include "tiling/random_cloud.h"
 #include "tiling/spacing.h"
+#include "tiling/survey_of.h"
 
 namespace arris::tiling {
 namespace {
 
-Survey survey_of(const std::vector<LatticePoint>& points, std::size_t max_leaves = 8192) {
-  Survey survey;
-  survey.lattice.step = 0.5;
-  survey.counts = CellCounts(0, max_leaves);
-  const std::vector<Mapped> outcome(points.size(), Mapped::kOk);
-  survey.add(points, outcome);
-  survey.finish();
-  return survey;
-}
+using test::survey_of;
 
 PlanRequest request(std::uint64_t max_points, double halo_factor = 3.0, double max_radius = 1e9) {
   PlanRequest request;

@@ -8,6 +8,7 @@
 #include "core/disjoint_sets.h"
 #include "core/parallel.h"
 #include "features/neighbourhood/point_tree.h"
+#include "features/segment/intensity_smoothing.h"
 #include "features/segment/likeness.h"
 #include "features/segment/support_proof.h"
 #include "features/segment/tile_neighbourhoods.h"
@@ -38,7 +39,10 @@ class Grower {
   TileGrowth run(const FrontierSink& frontier) {
     compute_rings();
     settle_unproven();
-    if (!parameters_.published && !intensities_.empty()) smooth_intensities();
+    if (!parameters_.published && !intensities_.empty()) {
+      intensities_ = smoothed_intensities(points_, intensities_);
+      likeness_.use_intensities(intensities_);
+    }
     choose_growing();
     find_links();
     number_components();
@@ -121,36 +125,6 @@ class Grower {
     }
     std::sort(growth_.unproven.begin(), growth_.unproven.end(),
               [](const UnprovenQuery& a, const UnprovenQuery& b) { return a.id < b.id; });
-  }
-
-  std::uint8_t median_intensity(std::uint32_t slot) const {
-    std::array<std::uint8_t, kMostNeighbours + 1> values;
-    std::size_t count = 0;
-    std::uint8_t least = 255, most = 0;
-    const auto take = [&](std::uint8_t value) {
-      values[count++] = value;
-      least = std::min(least, value);
-      most = std::max(most, value);
-    };
-    take(intensities_[slot]);
-    for (const std::uint32_t neighbour : points_.neighbours(slot)) take(intensities_[neighbour]);
-    if (least == most) return least;
-    const auto middle = values.begin() + count / 2;
-    std::nth_element(values.begin(), middle, values.begin() + count);
-    return *middle;
-  }
-
-  /// Every point gets the median of its surroundings: noise goes, the borders of materials stay where they are.
-  void smooth_intensities() {
-    std::vector<std::uint8_t> smooth = intensities_;
-    parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        const auto slot = static_cast<std::uint32_t>(i);
-        if (points_.state(slot) == ShapeState::kShaped) smooth[slot] = median_intensity(slot);
-      }
-    });
-    intensities_.swap(smooth);
-    likeness_.use_intensities(intensities_);
   }
 
   bool agrees(std::uint32_t slot) const {
