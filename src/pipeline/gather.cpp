@@ -2,6 +2,7 @@
 
 #include "features/contour/contour_method.h"
 #include "merge/result_reader.h"
+#include "pipeline/batch_pass.h"
 #include "pipeline/contour_row.h"
 
 namespace arris::pipeline {
@@ -9,16 +10,12 @@ namespace arris::pipeline {
 void gather_points(io::InputSet& inputs, const ExtractRequest& request, const ContourParameters& method,
                    merge::ResultSpool& results, std::vector<std::unique_ptr<io::KeptPointWriter>>& writers,
                    ExtractReport& report, ProgressSink& progress, const CancelToken& cancel) {
-  progress.phase("write", inputs.points());
-  inputs.rewind();
   io::ReadOptions options;
   options.records = true;
-  io::PointBatch batch;
   merge::ResultReader reader(results);
   std::vector<std::uint32_t> kept;
   std::vector<std::byte> rows;
-  while (inputs.read(batch, options)) {
-    cancel.check();
+  for_each_batch(inputs, options, "write", progress, cancel, [&](std::size_t source, const io::PointBatch& batch) {
     kept.clear();
     rows.clear();
     for (std::size_t i = 0; i < batch.count; ++i) {
@@ -34,10 +31,9 @@ void gather_points(io::InputSet& inputs, const ExtractRequest& request, const Co
       kept.push_back(static_cast<std::uint32_t>(i));
       append_contour_row(rows, record, request.refined);
     }
-    for (const auto& writer : writers) writer->append(inputs.source_index(), batch, kept, rows);
+    for (const auto& writer : writers) writer->append(source, batch, kept, rows);
     report.points_out += kept.size();
-    progress.advance(batch.count);
-  }
+  });
   if (!request.keep_all) {
     report.not_contour = report.points_in - report.points_out - report.dropped_nonfinite - report.dropped_out_of_range -
                          report.dropped_excluded;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "pipeline/batch_pass.h"
 
 namespace arris::pipeline {
 namespace {
@@ -16,19 +17,14 @@ GroundModel read_ground(io::InputSet& inputs, ProgressSink& progress, const Canc
   GroundSums sums;
   io::ReadOptions options;
   options.exclusion.only_classes.set(kGroundClass);
-  io::PointBatch batch;
-  progress.phase("ground", inputs.points());
-  inputs.rewind();
-  while (inputs.read(batch, options)) {
-    cancel.check();
-    const io::SourceInfo& source = inputs.sources()[inputs.source_index()];
+  for_each_batch(inputs, options, "ground", progress, cancel, [&](std::size_t index, const io::PointBatch& batch) {
+    const io::SourceInfo& source = inputs.sources()[index];
     for (std::size_t i = 0; i < batch.count; ++i) {
       if (batch.excluded[i] != 0) continue;
       sums.add(io::world_coordinate(source, batch, i, 0), io::world_coordinate(source, batch, i, 1),
                io::world_coordinate(source, batch, i, 2));
     }
-    progress.advance(batch.count);
-  }
+  });
   if (sums.empty())
     throw InputError("no point is classified as ground (class 2); classify the scan or leave out --min-height");
   return GroundModel(std::move(sums));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -10,9 +11,11 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/process_memory.h"
 #include "core/text.h"
 #include "pipeline/tile_stage.h"
+#include "tiling/point_grid.h"
 #include "tiling/query_regions.h"
 
 namespace arris::pipeline {
@@ -69,38 +72,52 @@ class Widener {
     }
   }
 
-  std::uint64_t count(std::span<const UnprovenQuery> queries) {
+  /// Calls taken() with the points in reach of the queries, tile by tile in order; false as soon as it says no.
+  bool gather(std::span<const UnprovenQuery> queries,
+              const std::function<bool(const tiling::SortedPoints& some)>& taken) {
     tiling::QueryRegions regions;
     for (const UnprovenQuery& query : queries) regions.add(query.position, query.reach_steps);
-    std::uint64_t points = 0;
-    std::vector<LatticePoint> no_positions;
-    std::vector<std::uint64_t> no_ids;
+    std::vector<std::size_t> touched;
     for (std::size_t tile = 0; tile < job_.tiles.tiles.size(); ++tile) {
-      if (!regions.touches(job_.tiles.tiles[tile].core)) continue;
-      const auto counted = [&](const LatticePoint& p) {
-        points += regions.contains(p);
-        return false;
-      };
-      store_.load_core(tile, counted, no_positions, no_ids,
-                       [&](const LatticeBox& box) { return regions.touches(box); });
+      if (regions.touches(job_.tiles.tiles[tile].core)) touched.push_back(tile);
     }
+    // As many tiles at once as were analysed at once, which took more memory.
+    std::vector<tiling::SortedPoints> loaded(static_cast<std::size_t>(job_.memory.tile_workers));
+    for (std::size_t begin = 0; begin < touched.size(); begin += loaded.size()) {
+      const std::size_t tiles = std::min(loaded.size(), touched.size() - begin);
+      parallel_for_chunks(tiles, 1, [&](std::size_t i, std::size_t) {
+        store_.load_core(
+            touched[begin + i], [&](const LatticePoint& p) { return regions.contains(p); }, loaded[i].positions,
+            loaded[i].ids, [&](const LatticeBox& box) { return regions.touches(box); });
+      });
+      for (std::size_t i = 0; i < tiles; ++i) {
+        if (!taken(loaded[i])) return false;
+        loaded[i] = {};
+      }
+    }
+    return true;
+  }
+
+  std::uint64_t count(std::span<const UnprovenQuery> queries) {
+    std::uint64_t points = 0;
+    gather(queries, [&](const tiling::SortedPoints& some) {
+      points += some.positions.size();
+      return true;
+    });
     return points;
   }
 
   /// The points in reach of the queries, or nothing if there are too many.
   std::optional<TilePoints> collect(std::span<const UnprovenQuery> queries) {
-    tiling::QueryRegions regions;
-    for (const UnprovenQuery& query : queries) regions.add(query.position, query.reach_steps);
     std::vector<LatticePoint> positions;
     std::vector<std::uint64_t> ids;
-    for (std::size_t tile = 0; tile < job_.tiles.tiles.size(); ++tile) {
-      if (!regions.touches(job_.tiles.tiles[tile].core)) continue;
-      store_.load_core(
-          tile, [&](const LatticePoint& p) { return regions.contains(p); }, positions, ids,
-          [&](const LatticeBox& box) { return regions.touches(box); });
-      if (positions.size() > job_.memory.max_tile_points && queries.size() > 1) return std::nullopt;
-      if (job_.memory.tile_bytes(positions.size()) > bytes_) return std::nullopt;
-    }
+    const bool fits = gather(queries, [&](const tiling::SortedPoints& some) {
+      positions.insert(positions.end(), some.positions.begin(), some.positions.end());
+      ids.insert(ids.end(), some.ids.begin(), some.ids.end());
+      if (positions.size() > job_.memory.max_tile_points && queries.size() > 1) return false;
+      return job_.memory.tile_bytes(positions.size()) <= bytes_;
+    });
+    if (!fits) return std::nullopt;
     TilePoints points;
     tiling::fold_duplicates(std::move(positions), std::move(ids), points);
     // Complete around every query as far as the query asked for, which is what its proof needs.

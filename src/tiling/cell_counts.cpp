@@ -36,6 +36,48 @@ LatticeBox cell_box(const Cell& cell, int level) {
   return box;
 }
 
+Cell cell_of(const LatticePoint& p, int level) {
+  return {p.x >> level, p.y >> level, p.z >> level};
+}
+
+/// Where the run of points of the same cell ends that starts at `begin`: scans mostly stay in a cell for a while.
+std::size_t end_of_run(std::span<const LatticePoint> points, std::size_t begin, int level) {
+  const Cell cell = cell_of(points[begin], level);
+  std::size_t end = begin + 1;
+  while (end < points.size() && cell_of(points[end], level) == cell) ++end;
+  return end;
+}
+
+/// The finest level from `first` on at which some of the points, spread over all, take no more leaves than that, as far
+/// as hashes tell leaves apart: every set that holds the points needs this level or a coarser one, and counting that
+/// begins there is spared the coarsening up to it.
+int level_that_fits(std::span<const LatticePoint> points, int first, std::size_t max_leaves) {
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / std::max<std::size_t>(1, 4 * max_leaves));
+  std::vector<std::uint64_t> hashes;
+  const auto fits = [&](int level) {
+    hashes.clear();
+    for (std::size_t i = 0; i < points.size(); i += stride) {
+      const Cell leaf = cell_of(points[i], std::min(level + kLeafLog2, 31));
+      std::uint64_t hash = 0;
+      for (const std::int32_t c : leaf) hash = (hash ^ static_cast<std::uint32_t>(c)) * 0x9E3779B97F4A7C15U;
+      if (hashes.empty() || hash != hashes.back()) hashes.push_back(hash);
+    }
+    if (hashes.size() <= max_leaves) return true;
+    std::ranges::sort(hashes);
+    return static_cast<std::size_t>(std::ranges::unique(hashes).begin() - hashes.begin()) <= max_leaves;
+  };
+  int low = first, high = kMaxLevel;  // The level lies in [low, high].
+  while (low < high) {
+    const int middle = low + (high - low) / 2;
+    if (fits(middle)) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return low;
+}
+
 /// Leaves met lately, found by a hash of their position: most points need no walk down the tree.
 class LeafCache {
  public:
@@ -101,6 +143,32 @@ struct CellCounts::Impl {
     stored = static_cast<std::int32_t>(sum - carried);
   }
 
+  /// Calls emptied() if the cell's last point went. Returns how many of `count` points were there.
+  template <typename Emptied>
+  std::uint64_t take_from_cell(const Cell& cell, std::uint64_t count, Emptied&& emptied) {
+    Leaf* leaf = probe_leaf(cell[0], cell[1], cell[2]);
+    const openvdb::Index offset = offset_in_leaf(cell[0], cell[1], cell[2]);
+    if (!leaf || !leaf->isValueOn(offset)) return 0;
+    std::int32_t& stored = leaf->buffer().data()[offset];
+    std::uint64_t taken = 0;
+    for (;;) {
+      const std::uint64_t now = std::min<std::uint64_t>(count - taken, static_cast<std::uint64_t>(stored));
+      stored -= static_cast<std::int32_t>(now);
+      taken += now;
+      if (stored > 0) return taken;
+      if (carried(cell) == 0) {
+        leaf->setActiveState(offset, false);
+        emptied();
+        return taken;
+      }
+      if (taken == count) return taken;
+      const auto found = overflow.find(cell);  // Borrow.
+      found->second -= kCarry;
+      if (found->second == 0) overflow.erase(found);
+      stored = kCarry;
+    }
+  }
+
   std::uint64_t carried(const Cell& cell) const {
     if (overflow.empty()) return 0;
     const auto found = overflow.find(cell);
@@ -146,26 +214,20 @@ std::size_t CellCounts::active_cells() const {
 
 void CellCounts::add(std::span<const LatticePoint> points) {
   Impl& impl = *impl_;
-  for (const LatticePoint& p : points) {
-    const int level = impl.level;
-    const std::int32_t cx = p.x >> level, cy = p.y >> level, cz = p.z >> level;
-    Leaf* leaf = impl.touch_leaf(cx, cy, cz);
-    const openvdb::Index offset = offset_in_leaf(cx, cy, cz);
-    std::int32_t& stored = leaf->buffer().data()[offset];
-    if (stored == 0) leaf->setActiveState(offset, true);
-    if (++stored == kCarry) {
-      impl.overflow[{cx, cy, cz}] += kCarry;
-      stored = 0;
-    }
-    if (impl.leaves > impl.max_leaves) impl.coarsen_to_fit();
+  if (impl.total == 0) impl.level = level_that_fits(points, impl.level, impl.max_leaves);
+  for (std::size_t begin = 0; begin < points.size();) {
+    const Cell cell = cell_of(points[begin], impl.level);
+    const std::size_t end = end_of_run(points, begin, impl.level);
+    impl.add_to_cell(cell, end - begin);
+    impl.coarsen_to_fit();
+    begin = end;
   }
   impl.total += points.size();
 }
 
 void CellCounts::add(const LatticePoint& point, std::uint64_t count) {
   if (count == 0) return;
-  const int level = impl_->level;
-  impl_->add_to_cell({point.x >> level, point.y >> level, point.z >> level}, count);
+  impl_->add_to_cell(cell_of(point, impl_->level), count);
   impl_->coarsen_to_fit();
   impl_->total += count;
 }
@@ -175,33 +237,29 @@ std::size_t CellCounts::remove(std::span<const LatticePoint> points,
   Impl& impl = *impl_;
   const int level = impl.level;
   std::size_t missing = 0;
-  for (const LatticePoint& p : points) {
-    const Cell cell{p.x >> level, p.y >> level, p.z >> level};
-    Leaf* leaf = impl.probe_leaf(cell[0], cell[1], cell[2]);
-    const openvdb::Index offset = offset_in_leaf(cell[0], cell[1], cell[2]);
-    if (!leaf || !leaf->isValueOn(offset)) {
-      ++missing;
-      continue;
-    }
-    std::int32_t& stored = leaf->buffer().data()[offset];
-    if (stored == 0) {  // Borrow: the count is a multiple of kCarry.
-      const auto found = impl.overflow.find(cell);
-      found->second -= kCarry;
-      if (found->second == 0) impl.overflow.erase(found);
-      stored = kCarry;
-    }
-    if (--stored == 0 && impl.carried(cell) == 0) {
-      leaf->setActiveState(offset, false);
-      emptied(cell_box(cell, level));
-    }
+  for (std::size_t begin = 0; begin < points.size();) {
+    const Cell cell = cell_of(points[begin], level);
+    const std::size_t end = end_of_run(points, begin, level);
+    const std::uint64_t there = impl.take_from_cell(cell, end - begin, [&] { emptied(cell_box(cell, level)); });
+    missing += end - begin - there;
+    begin = end;
   }
   impl.total -= points.size() - missing;
   return missing;
 }
 
+void CellCounts::merge(const CellCounts& other) {
+  while (impl_->level < other.impl_->level) impl_->coarsen();
+  other.for_each([&](const LatticeBox& cell, std::uint64_t count) {
+    add(LatticePoint{static_cast<std::int32_t>(cell.min[0]), static_cast<std::int32_t>(cell.min[1]),
+                     static_cast<std::int32_t>(cell.min[2])},
+        count);
+  });
+}
+
 std::uint64_t CellCounts::count_at(const LatticePoint& position) const {
   const int level = impl_->level;
-  const Cell cell{position.x >> level, position.y >> level, position.z >> level};
+  const Cell cell = cell_of(position, level);
   const Leaf* leaf = impl_->tree->probeConstLeaf(openvdb::Coord(cell[0], cell[1], cell[2]));
   if (!leaf) return 0;
   return static_cast<std::uint64_t>(leaf->getValue(offset_in_leaf(cell[0], cell[1], cell[2]))) + impl_->carried(cell);

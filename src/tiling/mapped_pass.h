@@ -1,9 +1,10 @@
 #pragma once
 /// @file One pass over all points as lattice points.
 
+#include <cstddef>
 #include <functional>
-#include <span>
 #include <string_view>
+#include <vector>
 
 #include "core/cancel.h"
 #include "core/lattice.h"
@@ -15,14 +16,19 @@ namespace arris::tiling {
 
 /// A batch and where its points lie; of equal lengths.
 struct MappedPoints {
-  const io::PointBatch& batch;
-  std::span<const LatticePoint> positions;
-  std::span<const Mapped> outcome;
+  io::PointBatch batch;
+  std::vector<LatticePoint> positions;
+  std::vector<Mapped> outcome;
 };
 
-/// Reads the inputs from their start and calls use() for every batch in turn, without records. Begins a phase of that
-/// name. Throws IoError, InputError, Cancelled.
+/// Reads the inputs from their start and calls use() for every batch in turn, without records, while the next one is
+/// read. Begins a phase of that name. Throws IoError, InputError, Cancelled.
 void for_each_mapped_batch(io::InputSet& inputs, const Lattice& lattice, std::string_view phase, ProgressSink& progress,
                            const CancelToken& cancel, const std::function<void(const MappedPoints&)>& use);
+
+/// The same in no order: `lanes` calls of use() at most at a time, each with another number in [0, lanes).
+void for_each_mapped_batch_unordered(io::InputSet& inputs, const Lattice& lattice, std::string_view phase,
+                                     ProgressSink& progress, const CancelToken& cancel, std::size_t lanes,
+                                     const std::function<void(std::size_t lane, const MappedPoints&)>& use);
 
 }  // namespace arris::tiling

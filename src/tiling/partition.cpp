@@ -104,7 +104,7 @@ PartitionResult partition_points(io::InputSet& inputs, const Survey& survey, con
   Partitioner partitioner(survey.counts, plan, options, closed);
   for_each_mapped_batch(inputs, survey.lattice, "partition", progress, cancel, [&](const MappedPoints& points) {
     for_each_mapped_run(points.outcome, [&](std::size_t begin, std::size_t end) {
-      partitioner.add(points.positions.subspan(begin, end - begin), points.batch.first_id + begin);
+      partitioner.add(std::span(points.positions).subspan(begin, end - begin), points.batch.first_id + begin);
     });
   });
   return partitioner.finish();

@@ -58,7 +58,7 @@ bool PlanCells::refine(io::InputSet& inputs, ProgressSink& progress, const Cance
   return refine([&](const Add& add) {
     for_each_mapped_batch(inputs, survey_.lattice, "crowded cells", progress, cancel, [&](const MappedPoints& points) {
       for_each_mapped_run(points.outcome, [&](std::size_t begin, std::size_t end) {
-        add(points.positions.subspan(begin, end - begin), 1);
+        add(std::span(points.positions).subspan(begin, end - begin), 1);
       });
     });
   });

@@ -38,6 +38,8 @@ struct Survey {
 
   /// Counts a batch of mapped points (equal lengths).
   void add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome);
+  /// As adding what was added to another survey of the same inputs that is not completed either.
+  void merge(const Survey& other);
   /// Completes the survey after the last batch: sets spacing.
   void finish();
 };
@@ -58,8 +60,8 @@ void for_each_mapped_run(std::span<const Mapped> outcome, Use&& use) {
 }
 
 /// Streams all inputs once; twice where the lattice depends on the points (floating point, differing scales or
-/// offsets). Memory: at most ~40 MB whatever the inputs hold, typically 10 MB. Throws Cancelled, and what reading
-/// throws.
+/// offsets). Memory: at most ~40 MB whatever the inputs hold, twice that with more than one thread; typically 10 MB.
+/// Throws Cancelled, and what reading throws.
 Survey survey_inputs(io::InputSet& inputs, const SurveyOptions& options, ProgressSink& progress,
                      const CancelToken& cancel);
 

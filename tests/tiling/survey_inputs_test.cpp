@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
 #include <random>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "support/las_tools.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
@@ -23,7 +25,7 @@ class NoProgress : public ProgressSink {
   void advance(std::uint64_t done_points) override { done += done_points; }
   void warning(std::string_view, std::string_view) override {}
   void note(std::string_view) override {}
-  std::uint64_t done = 0;
+  std::atomic<std::uint64_t> done = 0;
 };
 
 std::vector<std::array<std::int32_t, 3>> as_arrays(const std::vector<LatticePoint>& points) {
@@ -65,6 +67,25 @@ TEST(SurveyInputs, OrderAndFileSplit_DoNotMatter) {
   EXPECT_EQ(a.points_in, 20'000U);
   EXPECT_EQ(a.lattice.step, 0.001);
   expect_same(a, survey_inputs(many, {}, progress, cancel));
+}
+
+TEST(SurveyInputs, Threads_DoNotMatter) {
+  const test::TempFolder folder;
+  // Several batches; the first is coarse enough for its part of the counts to end on another level than the others.
+  auto points = test::random_cloud(22, 300'000);
+  for (std::size_t i = 0; i < 65'536; ++i) points[i] = {points[i].x / 4096, points[i].y / 4096, points[i].z / 4096};
+  test::write_las(folder / "cloud.las", as_arrays(points));
+  io::InputSet inputs({folder / "cloud.las"});
+  NoProgress progress;
+  const CancelToken cancel;
+  const auto survey_with = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return survey_inputs(inputs, {}, progress, cancel);
+  };
+  const Survey alone = survey_with(1);
+  EXPECT_EQ(progress.done, points.size());
+  for (const int threads : {2, 4}) expect_same(alone, survey_with(threads));
+  EXPECT_EQ(progress.done, 3 * points.size());
 }
 
 TEST(SurveyInputs, PlyWithHoles_CountsWhatTakesNoPart) {
