@@ -62,10 +62,27 @@ void parallel_for_chunks(std::size_t count, std::size_t grain,
   if (error) std::rethrow_exception(error);
 }
 #else
+namespace {
+/// Loops of all threads run in one arena: with as many places as threads are allowed, of which callers and TBB's
+/// threads take what is free, so that a lone loop has them all and loops side by side have one each.
+std::atomic<tbb::task_arena*> limited_arena{nullptr};
+
+tbb::task_arena& arena() {
+  if (tbb::task_arena* const limited = limited_arena) return *limited;
+  static tbb::task_arena unlimited;
+  return unlimited;
+}
+}  // namespace
+
 struct ThreadLimit::Impl {
   explicit Impl(int threads)
-      : control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(std::max(1, threads))) {}
+      : control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(std::max(1, threads))),
+        arena(std::max(1, threads)) {
+    limited_arena = &arena;
+  }
+  ~Impl() { limited_arena = nullptr; }
   tbb::global_control control;
+  tbb::task_arena arena;
 };
 
 int loop_threads() {
@@ -76,10 +93,13 @@ void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body) {
   grain = std::max<std::size_t>(grain, 1);
   const std::size_t chunks = count / grain + (count % grain != 0);
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, chunks,
-                      [&](std::size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); });
-  });
+  const auto loop = [&] {
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(std::size_t{0}, chunks,
+                        [&](std::size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); });
+    });
+  };
+  arena().execute(loop);
 }
 #endif
 

@@ -8,8 +8,8 @@
 
 namespace arris {
 
-/// Caps the threads of everything run inside it, nested loops and OpenVDB's own included. At most one per process is
-/// alive.
+/// Caps the threads of everything run inside it, nested loops and OpenVDB's own included: loops of several callers
+/// share them, and a lone loop has them all. At most one per process is alive.
 class ThreadLimit {
  public:
   /// @param threads  >= 1.

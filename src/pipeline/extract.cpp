@@ -33,7 +33,6 @@ struct LabelledScene {
 std::unique_ptr<const LabelledScene> label_scene(io::InputSet& inputs, const JobPlan& plan,
                                                  const ExtractRequest& request, const std::filesystem::path& folder,
                                                  ProgressSink& progress, const CancelToken& cancel) {
-  const ThreadLimit limit(request.threads);
   auto labelled = std::make_unique<LabelledScene>(
       LabelledScene{make_supervoxel_scene(inputs, plan.survey,
                                           {plan.method.supervoxel, plan.scale, request.memory_bytes,
@@ -77,6 +76,7 @@ ExtractReport plan_only(const ExtractRequest& request, ProgressSink& progress, c
   ExtractReport report;
   RecordingSink sink(progress, report);
   Stopwatch watch(report);
+  const ThreadLimit limit(request.threads);
   io::InputSet inputs(io::expand_inputs(request.inputs), request.tolerance);
   inputs.exclude(request.exclusion);
   JobPlan plan = survey_job(inputs, request, sink, cancel);
@@ -97,6 +97,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
   ExtractReport report;
   RecordingSink sink(progress, report);
   Stopwatch watch(report);
+  const ThreadLimit limit(request.threads);
   const double cpu_before = process_cpu_seconds();
 
   const std::vector<std::filesystem::path> paths = io::expand_inputs(request.inputs);
@@ -132,8 +133,6 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
   merge::ResultSpool results(folder.path(), inputs.points());
   const bool any_test = plan.method.any_test();  // Without, all points are no contour.
   if (any_test) {
-    // While tiles run side by side, each has one thread; a lone tile uses them all inside.
-    const ThreadLimit limit(request.threads - plan.memory.tile_workers + 1);
     tiling::TileStore store(folder.path(), plan.survey.lattice, plan.tiles, "");
     MemoryBudget budget(plan.memory.tiles_bytes);
     const TileAnalysis analysis = analysis_of(plan, labelled.get(), results);

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "core/memory_budget.h"
-#include "core/parallel.h"
 #include "core/process_memory.h"
 #include "pipeline/tile_stage.h"
 #include "pipeline/widen_stage.h"
@@ -27,8 +26,6 @@ GrowthResult grow_segments(io::InputSet& inputs, const GrowthSetup& setup, merge
     return {std::move(grown.unproven), grown.isolated};
   };
 
-  // While tiles run side by side, each has one thread; a lone tile uses them all inside.
-  const ThreadLimit limit(setup.threads - job.memory.tile_workers + 1);
   GrowthResult result;
   {
     tiling::TileStore store(setup.folder, job.survey.lattice, job.tiles, "");

@@ -21,7 +21,6 @@ struct GrowthSetup {
   const TileJob& job;
   const SegmentParameters& parameters;
   std::span<const std::uint8_t> intensities;  ///< By point id, or empty.
-  int threads = 1;
   std::filesystem::path folder;
   Stopwatch& watch;  ///< Gets "tiles", "widen" and "join".
 };

@@ -5,7 +5,6 @@
 
 #include "core/error.h"
 #include "core/memory_budget.h"
-#include "core/parallel.h"
 #include "core/process_memory.h"
 #include "features/segment_contours/segment_contours.h"
 #include "pipeline/run_support.h"
@@ -49,7 +48,6 @@ OutlineResult outline_segments(io::InputSet& inputs, TileJob& job, const Outline
   };
   OutlineResult result;
   {
-    const ThreadLimit limit(setup.request.threads - job.memory.tile_workers + 1);
     tiling::TileStore store(setup.folder, job.survey.lattice, job.tiles, "");
     MemoryBudget budget(job.memory.tiles_bytes);
     const TileStageResult tiles = run_tile_stage(inputs, job, analysis, setup.folder, store, budget, progress, cancel);

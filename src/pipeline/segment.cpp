@@ -61,13 +61,12 @@ PlanarSegments find_segments(io::InputSet& inputs, const SegmentRequest& request
   merge::SegmentFrontier frontier(folder / "frontier", report.parameters.most_neighbours());
   merge::DuplicatePoints duplicates(folder / "duplicates");
   GrowthResult growth =
-      grow_segments(inputs, {job, report.parameters, plan.intensities.of_point, request.threads, folder, watch},
+      grow_segments(inputs, {job, report.parameters, plan.intensities.of_point, folder, watch},
                     frontier, duplicates, progress, cancel);
   report.isolated = growth.isolated;
   report.widened_queries = growth.widened_queries;
   report.peak_temp_bytes = growth.peak_temp_bytes;
   report.frontier = frontier.records();
-  const ThreadLimit limit(request.threads);
   PlanarSegments segments = settle_segments(inputs, {job.survey.lattice, report.parameters, folder},
                                             std::move(growth.segments), frontier, duplicates, progress, cancel);
   report.segments = segments.planes.size();
@@ -103,6 +102,7 @@ SegmentReport plan_segments(const SegmentRequest& request, ProgressSink& progres
   report.parameters = request.parameters;
   RecordingSink sink(progress, report);
   Stopwatch watch(report);
+  const ThreadLimit limit(request.threads);
   io::InputSet inputs(io::expand_inputs(request.inputs), request.tolerance);
   refuse_too_many(inputs);
   ProblemWarnings problems(inputs, sink);
@@ -119,6 +119,7 @@ SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, con
   report.parameters = request.parameters;
   RecordingSink sink(progress, report);
   Stopwatch watch(report);
+  const ThreadLimit limit(request.threads);
   const double cpu_before = process_cpu_seconds();
   const std::vector<std::filesystem::path> paths = io::expand_inputs(request.inputs);
   refuse_bad_outputs(request, paths);

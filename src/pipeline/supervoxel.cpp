@@ -47,6 +47,7 @@ SupervoxelReport plan_supervoxels(const SupervoxelRequest& request, ProgressSink
   validate(report.parameters);
   RecordingSink sink(progress, report);
   Stopwatch watch(report);
+  const ThreadLimit limit(request.threads);
   io::InputSet inputs(io::expand_inputs(request.inputs), request.tolerance);
   ProblemWarnings problems(inputs, sink);
   problems.forward();
@@ -72,6 +73,7 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   validate(report.parameters);
   RecordingSink sink(progress, report);
   Stopwatch watch(report);
+  const ThreadLimit limit(request.threads);
   const double cpu_before = process_cpu_seconds();
   const std::vector<std::filesystem::path> paths = io::expand_inputs(request.inputs);
   refuse_bad_outputs(request, paths);
@@ -81,7 +83,6 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   Writers writers =
       open_writers(request, inputs, {{"SupervoxelId", ColumnType::kUint32, "supervoxel, 0 none"}}, true, report);
   inputs.exclude(request.exclusion);
-  const ThreadLimit limit(request.threads);
 
   const auto [survey, scale] = survey_scan(inputs, request, problems, report, sink, cancel);
   watch.lap("survey");

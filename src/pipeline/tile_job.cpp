@@ -73,8 +73,9 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, io::InputSet& inputs, c
       needs.whole_halo ? 0
                        : static_cast<std::int64_t>(std::ceil(needs.max_radius / job.survey.lattice.step + kRounding));
 
-  // Few tiles leave threads idle: then one tile at a time uses all of them inside.
-  if (job.tiles.tiles.size() < 4 * static_cast<std::size_t>(job.memory.tile_workers)) job.memory.tile_workers = 1;
+  // Tiles share what threads there are: what is serial in one goes on beside the loops of another.
+  job.memory.tile_workers =
+      std::clamp(static_cast<int>(std::min<std::size_t>(job.tiles.tiles.size(), 1U << 20)), 1, job.memory.tile_workers);
   const std::uint64_t largest = job.memory.tile_bytes(job.tiles.largest_covered_points);
   while (job.memory.tile_workers > 1 && largest * job.memory.tile_workers > job.memory.tiles_bytes)
     --job.memory.tile_workers;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace arris {
@@ -28,6 +30,27 @@ TEST(ParallelForChunks, ThrowingBody_RethrowsInTheCaller) {
                                    }),
                std::runtime_error);
 }
+
+#if !defined(__SANITIZE_THREAD__)  // There each loop has threads of its own.
+TEST(ThreadLimit, LoopsSideBySide_ShareTheThreads) {
+  const ThreadLimit limit(2);
+  std::atomic<int> now{0}, most{0};
+  BackgroundTasks tasks(3);
+  for (int task = 0; task < 6; ++task) {
+    tasks.run([&] {
+      parallel_for_chunks(20, 1, [&](std::size_t, std::size_t) {
+        const int running = ++now;
+        for (int seen = most; seen < running && !most.compare_exchange_weak(seen, running);) {
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        --now;
+      });
+    });
+  }
+  tasks.wait();
+  EXPECT_EQ(most, 2);
+}
+#endif
 
 TEST(BackgroundTasks, AllTasks_AreDoneAfterWait) {
   BackgroundTasks tasks(3);
