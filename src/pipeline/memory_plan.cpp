@@ -50,6 +50,15 @@ std::uint64_t MemoryPlan::tile_bytes(std::uint64_t points) const {
   return bytes_of_tile(points, method);
 }
 
+std::uint64_t MemoryPlan::points_within(std::uint64_t bytes, std::uint64_t most) const {
+  std::uint64_t low = 0, high = most + 1;  // The number lies in [low, high).
+  while (high - low > 1) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    (tile_bytes(middle) <= bytes ? low : high) = middle;
+  }
+  return low;
+}
+
 std::uint64_t MemoryPlan::widen_bytes() const {
   const auto usable = static_cast<std::uint64_t>(kSafety * static_cast<double>(budget_bytes));
   const std::uint64_t taken = arris::resident_bytes() + scratch_bytes + kWidenBytes;
@@ -92,15 +101,10 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
     --plan.tile_workers;
 
   const std::uint64_t share = plan.tiles_bytes / plan.tile_workers;
-  std::uint64_t low = 1;
-  // Largest number of points whose tile fits lies in [low, high). Fewer workers have no larger tiles than more will
-  // have with a little more memory: a larger budget never gives smaller tiles.
-  std::uint64_t high = (plan.tile_workers < request.threads ? kFairTilePoints : kLargestTilePoints) + 1;
-  while (high - low > 1) {
-    const std::uint64_t middle = low + (high - low) / 2;
-    (plan.tile_bytes(middle) <= share ? low : high) = middle;
-  }
-  plan.max_tile_points = low;
+  // Fewer workers have no larger tiles than more will have with a little more memory: a larger budget never gives
+  // smaller tiles.
+  const std::uint64_t most = plan.tile_workers < request.threads ? kFairTilePoints : kLargestTilePoints;
+  plan.max_tile_points = plan.points_within(share, most);
   return plan;
 }
 

@@ -38,6 +38,8 @@ struct MemoryPlan {
   /// Predicted peak bytes of one tile of `points` covered points: the larger of building it and of loading and
   /// analysing it.
   std::uint64_t tile_bytes(std::uint64_t points) const;
+  /// The most points, up to `most`, of which tile_bytes() is no more than that; 0 if one is too many.
+  std::uint64_t points_within(std::uint64_t bytes, std::uint64_t most = std::uint64_t{1} << 40) const;
   /// What points in flight may take once nothing is routed any more, as things stand now; at least tiles_bytes.
   std::uint64_t widen_bytes() const;
 };

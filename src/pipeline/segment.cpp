@@ -54,15 +54,14 @@ std::vector<ColumnSpec> columns_of(const SegmentRequest& request) {
 }
 
 /// Growth, planes and reassignment.
-PlanarSegments find_segments(io::InputSet& inputs, const SegmentRequest& request, const SegmentPlan& plan,
-                             const std::filesystem::path& folder, SegmentReport& report, Stopwatch& watch,
-                             ProgressSink& progress, const CancelToken& cancel) {
+PlanarSegments find_segments(io::InputSet& inputs, const SegmentPlan& plan, const std::filesystem::path& folder,
+                             SegmentReport& report, Stopwatch& watch, ProgressSink& progress,
+                             const CancelToken& cancel) {
   const TileJob& job = plan.job;
   merge::SegmentFrontier frontier(folder / "frontier", report.parameters.most_neighbours());
   merge::DuplicatePoints duplicates(folder / "duplicates");
-  GrowthResult growth =
-      grow_segments(inputs, {job, report.parameters, plan.intensities.of_point, folder, watch},
-                    frontier, duplicates, progress, cancel);
+  GrowthResult growth = grow_segments(inputs, {job, report.parameters, plan.intensities.of_point, folder, watch},
+                                      frontier, duplicates, progress, cancel);
   report.isolated = growth.isolated;
   report.widened_queries = growth.widened_queries;
   report.peak_temp_bytes = growth.peak_temp_bytes;
@@ -134,7 +133,7 @@ SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, con
   TileJob& job = plan.job;
   const Lattice lattice = job.survey.lattice;
   const RunFolder folder(request.temp_dir);
-  const PlanarSegments segments = find_segments(inputs, request, plan, folder.path(), report, watch, sink, cancel);
+  const PlanarSegments segments = find_segments(inputs, plan, folder.path(), report, watch, sink, cancel);
 
   report.shape = request.shape;
   report.shape.boundary = report.shape.fold = request.contours;

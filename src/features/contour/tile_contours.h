@@ -14,14 +14,14 @@ namespace arris {
 struct UnprovenQuery {
   std::uint64_t id = 0;
   LatticePoint position;
-  std::int64_t reach_steps = 0;       ///< Chebyshev reach: the box position +- reach must be covered.
+  std::int64_t reach_steps = 0;       ///< The ball of this radius must be covered.
   std::int64_t most_reach_steps = 0;  ///< Region growing: no greater reach will ever be told; 0: not known.
 };
 
 /// An entry of a tile to ask about, of which space is known so far around it.
 struct PlacedQuery {
   std::uint32_t entry = 0;
-  std::int64_t reach_steps = 0;  ///< The box position +- reach is covered.
+  std::int64_t reach_steps = 0;  ///< The ball of this radius is covered.
 };
 
 struct TileContours {

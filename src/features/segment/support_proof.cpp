@@ -20,8 +20,12 @@ double SupportProof::distance(std::uint32_t a, std::uint32_t b) const {
   return std::sqrt(static_cast<double>(squared_distance(tree_.position(a), tree_.position(b)))) * kRound;
 }
 
-double SupportProof::farther(std::uint32_t slot, const LatticeBox& covered) const {
-  return kFarther * static_cast<double>(covered.depth(tree_.position(slot)));
+SupportProof::Depth SupportProof::depth_in(const LatticeBox& covered) const {
+  return [this, &covered](std::uint32_t slot) { return static_cast<double>(covered.depth(tree_.position(slot))); };
+}
+
+SupportProof::Depth SupportProof::depth_around(std::uint32_t slot, double radius) const {
+  return [this, slot, radius](std::uint32_t other) { return radius - distance(slot, other); };
 }
 
 /// Those that are bad, or have a neighbour that is.
@@ -42,7 +46,8 @@ std::vector<std::uint32_t> SupportProof::unproven(const std::vector<std::uint8_t
   parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const auto slot = static_cast<std::uint32_t>(i);
-      bad[i] = points_.state(slot) != ShapeState::kUnasked && !inside(slot, points_.reach_of(slot), covered);
+      bad[i] = points_.state(slot) != ShapeState::kUnasked &&
+               points_.reach_of(slot) >= static_cast<double>(covered.depth(tree_.position(slot)));
     }
   });
   std::vector<std::uint32_t> slots;
@@ -53,12 +58,14 @@ std::vector<std::uint32_t> SupportProof::unproven(const std::vector<std::uint8_t
   return slots;
 }
 
-double SupportProof::reach(std::uint32_t slot, const LatticeBox& covered) const {
+double SupportProof::reach(std::uint32_t slot, const Depth& depth) const {
   const double most = points_.max_reach_steps();
   const double own = points_.reach_of(slot);
-  if (!inside(slot, own, covered)) {
+  const auto inside = [&](std::uint32_t of, double radius) { return radius < depth(of); };
+  const auto farther = [&](std::uint32_t of) { return kFarther * std::max(depth(of), 0.0); };
+  if (!inside(slot, own)) {
     if (points_.full(slot)) return own;
-    return std::min(most, farther(slot, covered));
+    return std::min(most, farther(slot));
   }
   struct Ball {
     std::uint32_t slot;
@@ -76,9 +83,9 @@ double SupportProof::reach(std::uint32_t slot, const LatticeBox& covered) const 
         const double radius = bounded ? std::min(points_.reach_of(neighbour), bound) : points_.reach_of(neighbour);
         next.push_back({neighbour, radius});
         double look = radius;
-        if (!inside(neighbour, radius, covered)) {
+        if (!inside(neighbour, radius)) {
           whole = false;
-          if (!points_.full(neighbour)) look = std::min(radius, std::max(bound, farther(neighbour, covered)));
+          if (!points_.full(neighbour)) look = std::min(radius, std::max(bound, farther(neighbour)));
         }
         reach = std::max(reach, distance(slot, neighbour) + look);
       }

@@ -2,6 +2,7 @@
 /// @file Whether all that a point's growth depends on was seen.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,10 +22,15 @@ class SupportProof {
   /// Queries whose support is not inside of `covered`, ascending. O(points).
   std::vector<std::uint32_t> unproven(const std::vector<std::uint8_t>& is_query, const LatticeBox& covered) const;
 
-  /// 0 if the support of the query lies inside of `covered`. Else how far around it space must be covered to see the
-  /// first ring that is not, steps: more than now. Repeated, that ends after a few rounds, because no neighbour's ball
-  /// is larger than the distance to it and the radius of the ball around the point itself together.
-  double reach(std::uint32_t slot, const LatticeBox& covered) const;
+  /// How far around a slot space is known, steps: no unseen position is nearer.
+  using Depth = std::function<double(std::uint32_t slot)>;
+  /// 0 if the support of the query lies in known space. Else how far around it space must be known to see the first
+  /// ring that is not, steps: more than now. Repeated, that ends after a few rounds, because no neighbour's ball is
+  /// larger than the distance to it and the radius of the ball around the point itself together.
+  double reach(std::uint32_t slot, const Depth& depth) const;
+  Depth depth_in(const LatticeBox& covered) const;
+  /// Where space is known within `radius` around a slot.
+  Depth depth_around(std::uint32_t slot, double radius) const;
 
   /// Of a query, whatever more of the scan is in sight: once the first ball of this radius is, no reach() is greater
   /// than the second. None: too few points are in sight to tell.
@@ -34,11 +40,6 @@ class SupportProof {
   std::optional<Bound> bound(std::uint32_t slot) const;
 
  private:
-  bool inside(std::uint32_t slot, double radius, const LatticeBox& covered) const {
-    return radius < static_cast<double>(covered.depth(tree_.position(slot)));
-  }
-  /// Where to look next for neighbours that are not in sight.
-  double farther(std::uint32_t slot, const LatticeBox& covered) const;
   double distance(std::uint32_t a, std::uint32_t b) const;
   std::vector<std::uint8_t> with_bad_neighbours(const std::vector<std::uint8_t>& bad) const;
 

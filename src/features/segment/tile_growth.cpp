@@ -109,8 +109,9 @@ class Grower {
       growth_.unproven.push_back({tree_.id(slot), tree_.position(slot), steps(reach), most > 0.0 ? steps(most) : 0});
     };
     if (reach_.empty()) {
+      const SupportProof::Depth in_tile = proof.depth_in(covered_);
       for (const std::uint32_t slot : proof.unproven(is_query_, covered_)) {
-        const double reach = proof.reach(slot, covered_);
+        const double reach = proof.reach(slot, in_tile);
         if (const auto bound = proof.bound(slot))
           leave(slot, std::max(reach, bound->first), std::max(reach, kRoundMore * bound->most));
         else
@@ -118,10 +119,8 @@ class Grower {
       }
     }
     for (const auto& [slot, reach] : reach_) {
-      const LatticePoint p = tree_.position(slot);
-      const LatticeBox box{{p.x - reach, p.y - reach, p.z - reach},
-                           {p.x + reach + 1, p.y + reach + 1, p.z + reach + 1}};
-      if (const double needed = proof.reach(slot, box); needed > 0.0) leave(slot, needed);
+      const double needed = proof.reach(slot, proof.depth_around(slot, static_cast<double>(reach)));
+      if (needed > 0.0) leave(slot, needed);
     }
     std::sort(growth_.unproven.begin(), growth_.unproven.end(),
               [](const UnprovenQuery& a, const UnprovenQuery& b) { return a.id < b.id; });

@@ -1,0 +1,163 @@
+#include "pipeline/widener.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/process_memory.h"
+#include "core/text.h"
+#include "tiling/morton.h"
+#include "tiling/query_regions.h"
+
+namespace arris::pipeline {
+namespace {
+
+tiling::QueryRegions regions_of(std::span<const UnprovenQuery> queries) {
+  tiling::QueryRegions regions;
+  for (const UnprovenQuery& query : queries) regions.add(query.position, query.reach_steps);
+  return regions;
+}
+
+/// Queries near each other should come together: what is in reach of them is then much the same.
+void sort_by_place(std::vector<UnprovenQuery>& queries) {
+  std::ranges::sort(queries, [](const UnprovenQuery& a, const UnprovenQuery& b) {
+    return a.position == b.position ? a.id < b.id : tiling::z_order_less(a.position, b.position);
+  });
+}
+
+/// Every round must look farther, or it would never end.
+void require_progress(std::span<const UnprovenQuery> before, std::span<const UnprovenQuery> after) {
+  std::unordered_map<std::uint64_t, std::int64_t> reach_of;
+  for (const UnprovenQuery& query : before) reach_of.emplace(query.id, query.reach_steps);
+  for (const UnprovenQuery& query : after) {
+    if (query.reach_steps <= reach_of.at(query.id))
+      throw IoError("internal: a query stayed unproven on complete support; please report this");
+  }
+}
+
+}  // namespace
+
+Widener::Widener(const TileJob& job, const TileAnalysis& analysis, const tiling::TileStore& store)
+    : job_(job),
+      analysis_(analysis),
+      store_(store),
+      all_bytes_(job.memory.widen_bytes()),
+      group_bytes_(std::min(all_bytes_, static_cast<std::uint64_t>(job.memory.tile_workers) *
+                                            job.memory.tile_bytes(job.tiles.largest_covered_points))) {}
+
+std::vector<UnprovenQuery> Widener::answer(std::span<const UnprovenQuery> queries) {
+  farther_.clear();
+  look_around(queries);
+  for (const UnprovenQuery& query : std::exchange(alone_, {})) answer_alone(query);
+  return std::move(farther_);
+}
+
+/// A third of the memory holds what is around the queries, the rest what is analysed of it.
+void Widener::look_around(std::span<const UnprovenQuery> queries) {
+  std::optional<NearbyPoints> points = read(queries, group_bytes_ / 3 / NearbyPoints::kBytesPerPoint);
+  if (points) {
+    std::vector<UnprovenQuery> compact(queries.begin(), queries.end());
+    sort_by_place(compact);
+    answer_among(*points, compact);
+  } else if (queries.size() == 1) {
+    alone_.push_back(queries[0]);
+  } else {
+    look_around(queries.first(queries.size() / 2));
+    look_around(queries.subspan(queries.size() / 2));
+  }
+}
+
+void Widener::answer_among(const NearbyPoints& all, std::span<const UnprovenQuery> queries) {
+  std::optional<TilePoints> points = all.in(regions_of(queries), job_.memory.points_within(group_bytes_ / 3 * 2));
+  if (points) {
+    analyse(std::move(*points), queries);
+  } else if (queries.size() == 1) {
+    alone_.push_back(queries[0]);
+  } else {
+    answer_among(all, queries.first(queries.size() / 2));
+    answer_among(all, queries.subspan(queries.size() / 2));
+  }
+}
+
+/// All of the memory for one.
+void Widener::answer_alone(const UnprovenQuery& query) {
+  const std::span<const UnprovenQuery> queries(&query, 1);
+  std::optional<NearbyPoints> all = read(queries, job_.memory.points_within(all_bytes_));
+  if (!all) {
+    const std::uint64_t among = count(queries);
+    throw BudgetError(
+        fmt::format("the neighbours of point {} lie among {} points that must be seen together; run with at least "
+                    "--memory {}",
+                    query.id, grouped(among), budget_text(least_budget_bytes(among, job_.memory_request))));
+  }
+  std::optional<TilePoints> points = all->in(regions_of(queries), all->size());
+  all.reset();
+  analyse(std::move(*points), queries);
+}
+
+void Widener::analyse(TilePoints&& points, std::span<const UnprovenQuery> queries) {
+  std::unordered_map<std::uint64_t, std::uint32_t> index_of;
+  for (const UnprovenQuery& query : queries) index_of.emplace(query.id, std::numeric_limits<std::uint32_t>::max());
+  for (std::uint32_t i = 0; i < points.ids.size(); ++i) {
+    const auto found = index_of.find(points.ids[i]);
+    if (found != index_of.end()) found->second = i;
+  }
+  std::vector<PlacedQuery> placed;
+  for (const UnprovenQuery& query : queries) placed.push_back({index_of.at(query.id), query.reach_steps});
+  const TileOutcome answered = analysis_(points, placed);
+  points = {};
+  release_free_memory();
+  isolated_ += answered.isolated;
+  require_progress(queries, answered.unproven);
+  farther_.insert(farther_.end(), answered.unproven.begin(), answered.unproven.end());
+}
+
+bool Widener::gather(std::span<const UnprovenQuery> queries,
+                     const std::function<bool(tiling::SortedPoints& some)>& taken) {
+  const tiling::QueryRegions regions = regions_of(queries);
+  std::vector<std::size_t> touched;
+  for (std::size_t tile = 0; tile < job_.tiles.tiles.size(); ++tile) {
+    if (regions.touches(job_.tiles.tiles[tile].core)) touched.push_back(tile);
+  }
+  // As many tiles at once as were analysed at once, which took more memory.
+  std::vector<tiling::SortedPoints> loaded(static_cast<std::size_t>(job_.memory.tile_workers));
+  for (std::size_t begin = 0; begin < touched.size(); begin += loaded.size()) {
+    const std::size_t tiles = std::min(loaded.size(), touched.size() - begin);
+    parallel_for_chunks(tiles, 1, [&](std::size_t i, std::size_t) {
+      store_.load_core(
+          touched[begin + i], [&](const LatticePoint& p) { return regions.contains(p); }, loaded[i].positions,
+          loaded[i].ids, [&](const LatticeBox& box) { return regions.touches(box); });
+    });
+    for (std::size_t i = 0; i < tiles; ++i) {
+      if (!taken(loaded[i])) return false;
+      loaded[i] = {};
+    }
+  }
+  return true;
+}
+
+std::uint64_t Widener::count(std::span<const UnprovenQuery> queries) {
+  std::uint64_t points = 0;
+  gather(queries, [&](tiling::SortedPoints& some) {
+    points += some.positions.size();
+    return true;
+  });
+  return points;
+}
+
+std::optional<NearbyPoints> Widener::read(std::span<const UnprovenQuery> queries, std::uint64_t most_points) {
+  std::optional<NearbyPoints> points(std::in_place);
+  const bool fits = gather(queries, [&](tiling::SortedPoints& some) {
+    points->add(std::move(some));
+    return points->size() <= most_points;
+  });
+  if (!fits) points.reset();
+  return points;
+}
+
+}  // namespace arris::pipeline

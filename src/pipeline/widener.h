@@ -1,0 +1,49 @@
+#pragma once
+/// @file Answers queries that need a wider view than their tiles had.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pipeline/nearby_points.h"
+#include "pipeline/tile_job.h"
+#include "tiling/tile_store.h"
+
+namespace arris::pipeline {
+
+/// Reads what is around queries from the tile files and runs the analysis on it. Tile files are read once for as many
+/// queries as memory allows.
+class Widener {
+ public:
+  Widener(const TileJob& job, const TileAnalysis& analysis, const tiling::TileStore& store);
+
+  /// Returns those that must look farther still. Queries should come tile by tile. Throws BudgetError if what one of
+  /// them asks for does not fit into the budget.
+  std::vector<UnprovenQuery> answer(std::span<const UnprovenQuery> queries);
+  /// So far.
+  std::uint64_t isolated() const { return isolated_; }
+
+ private:
+  void look_around(std::span<const UnprovenQuery> queries);
+  void answer_among(const NearbyPoints& all, std::span<const UnprovenQuery> queries);
+  void answer_alone(const UnprovenQuery& query);
+  void analyse(TilePoints&& points, std::span<const UnprovenQuery> queries);
+  /// Calls taken() with the points in reach of the queries, tile by tile in order; false as soon as it says no.
+  bool gather(std::span<const UnprovenQuery> queries, const std::function<bool(tiling::SortedPoints& some)>& taken);
+  std::uint64_t count(std::span<const UnprovenQuery> queries);
+  /// The points in reach of the queries, or nothing if there are more than that.
+  std::optional<NearbyPoints> read(std::span<const UnprovenQuery> queries, std::uint64_t most_points);
+
+  const TileJob& job_;
+  const TileAnalysis& analysis_;
+  const tiling::TileStore& store_;
+  std::uint64_t all_bytes_;    ///< There are for points and their analysis.
+  std::uint64_t group_bytes_;  ///< That groups take of them: no more than tiles did, which is what was foretold.
+  std::uint64_t isolated_ = 0;
+  std::vector<UnprovenQuery> farther_;  ///< Of the queries being answered.
+  std::vector<UnprovenQuery> alone_;    ///< Have more around them than goes with others in memory.
+};
+
+}  // namespace arris::pipeline
