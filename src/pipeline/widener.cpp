@@ -57,9 +57,10 @@ std::vector<UnprovenQuery> Widener::answer(std::span<const UnprovenQuery> querie
   return std::move(farther_);
 }
 
-/// A third of the memory holds what is around the queries, the rest what is analysed of it.
+/// A quarter of the memory holds what is around the queries, half what is analysed of it; tiles are not all at their
+/// peak together, so they did not take all of it either.
 void Widener::look_around(std::span<const UnprovenQuery> queries) {
-  std::optional<NearbyPoints> points = read(queries, group_bytes_ / 3 / NearbyPoints::kBytesPerPoint);
+  std::optional<NearbyPoints> points = read(queries, group_bytes_ / 4 / NearbyPoints::kBytesPerPoint);
   if (points) {
     std::vector<UnprovenQuery> compact(queries.begin(), queries.end());
     sort_by_place(compact);
@@ -73,7 +74,7 @@ void Widener::look_around(std::span<const UnprovenQuery> queries) {
 }
 
 void Widener::answer_among(const NearbyPoints& all, std::span<const UnprovenQuery> queries) {
-  std::optional<TilePoints> points = all.in(regions_of(queries), job_.memory.points_within(group_bytes_ / 3 * 2));
+  std::optional<TilePoints> points = all.in(regions_of(queries), job_.memory.points_within(group_bytes_ / 2));
   if (points) {
     analyse(std::move(*points), queries);
   } else if (queries.size() == 1) {
