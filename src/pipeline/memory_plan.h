@@ -52,6 +52,6 @@ std::uint64_t least_budget_bytes(std::uint64_t points, const MemoryRequest& requ
 
 constexpr std::uint64_t kLeastTilePoints = 50'000;
 /// Smaller tiles are mostly halo: rather fewer in flight, each analysed by more threads.
-constexpr std::uint64_t kFairTilePoints = 400'000;
+constexpr std::uint64_t kFairTilePoints = 1'000'000;
 
 }  // namespace arris::pipeline
