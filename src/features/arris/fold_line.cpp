@@ -1,8 +1,8 @@
 #include "features/arris/fold_line.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 
 #include "features/numerics/exact_math.h"
@@ -83,11 +83,7 @@ struct SumArms {
       add(in_a * near[0], t, u[0], w[0], sums[0]);
       add((real - in_a) * near[1], t, u[1], w[1], sums[1]);
     }
-    for (int k = 0; k < 2; ++k) {
-      double total[14];
-      for (int j = 0; j < 14; ++j) total[j] = simd::exact_lane_sum(sums[k].v[j]);
-      std::memcpy(&out[k], total, sizeof total);
-    }
+    for (int k = 0; k < 2; ++k) out[k] = std::bit_cast<ArmSums>(simd::exact_lane_sums(sums[k].v));
   }
 
   /// `weight` is 0 or 1.

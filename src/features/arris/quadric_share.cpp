@@ -52,7 +52,8 @@ struct SumProducts {
       }
       sums[kSums - 1] = simd::exact_multiply_add(w, w, sums[kSums - 1]);
     }
-    for (int k = 0; k < kSums; ++k) columns.sums[k][lane] = simd::exact_lane_sum(sums[k]);
+    const std::array<double, kSums> totals = simd::exact_lane_sums(sums);
+    for (int k = 0; k < kSums; ++k) columns.sums[k][lane] = totals[static_cast<std::size_t>(k)];
   }
 };
 

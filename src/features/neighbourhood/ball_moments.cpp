@@ -1,6 +1,7 @@
 #include "features/neighbourhood/ball_moments.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -21,18 +22,20 @@ struct SumMembers {
   static ARRIS_ALWAYS_INLINE void run(const CandidateSet<T>& c, const BallQuery<T>& ball, std::size_t vectors_in_row,
                                       BallMoments& out) {
     constexpr std::size_t kLanes = simd::VectorOf<Sum, Bytes>::kLanes;
+    typename simd::Wide<Bytes>::Double totals[10]{};
     const std::size_t end = simd::padded(c.count);
     for (std::size_t begin = 0; begin < end;) {
       const std::size_t stop = std::min(end - begin, vectors_in_row * kLanes) + begin;
-      add_row<Bytes>(c, ball, begin, stop, out);
+      add_row<Bytes>(c, ball, begin, stop, totals);
       begin = stop;
     }
+    out = std::bit_cast<BallMoments>(simd::exact_lane_sums(totals));
   }
 
  private:
   template <int Bytes, class T>
   static ARRIS_ALWAYS_INLINE void add_row(const CandidateSet<T>& c, const BallQuery<T>& ball, std::size_t begin,
-                                          std::size_t end, BallMoments& out) {
+                                          std::size_t end, typename simd::Wide<Bytes>::Double (&totals)[10]) {
     using V = typename simd::VectorOf<Sum, Bytes>::Type;
     constexpr std::size_t kLanes = simd::VectorOf<Sum, Bytes>::kLanes;
     typedef T Loaded __attribute__((vector_size(kLanes * sizeof(T))));
@@ -59,8 +62,7 @@ struct SumMembers {
       zz = simd::exact_multiply_add(dz, dz, zz);
     }
     const V* const sums[] = {&n, &x, &y, &z, &xx, &xy, &xz, &yy, &yz, &zz};
-    double* const totals[] = {&out.n, &out.x, &out.y, &out.z, &out.xx, &out.xy, &out.xz, &out.yy, &out.yz, &out.zz};
-    for (int i = 0; i < 10; ++i) *totals[i] += simd::exact_lane_sum(*sums[i]);
+    for (int i = 0; i < 10; ++i) totals[i] += simd::exact_doubles(*sums[i]);
   }
 };
 
