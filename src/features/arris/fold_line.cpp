@@ -9,6 +9,8 @@
 #include "features/numerics/exact_sums.h"
 #include "features/numerics/least_squares.h"
 
+#define ARRIS_UNROLL _Pragma("GCC unroll 32")
+
 namespace arris {
 namespace {
 
@@ -70,6 +72,7 @@ struct SumArms {
       const V z = real * simd::load<V>(p.z.data() + i) - f.origin[2];
       const V t = on_grid<kRegressorBits>(f.t[0] * x + f.t[1] * y + f.t[2] * z);
       V u[2], w[2], off[2];
+ARRIS_UNROLL
       for (int k = 0; k < 2; ++k) {
         u[k] = on_grid<kRegressorBits>(f.away[k][0] * x + f.away[k][1] * y + f.away[k][2] * z);
         w[k] = on_grid<kOffsetBits>(f.normal[k][0] * x + f.normal[k][1] * y + f.normal[k][2] * z);
@@ -77,6 +80,7 @@ struct SumArms {
       }
       const V in_a = real * simd::where_above(off[1], off[0]);
       V near[2];
+ARRIS_UNROLL
       for (int k = 0; k < 2; ++k) {
         near[k] = simd::where_at_most(off[k] * off[k], gate * gate);
       }
@@ -99,8 +103,10 @@ struct SumArms {
     s.v[3] += t2;
     s.v[9] += w;
     const V factors[][2] = {{u, u}, {u, t}, {u, t2}, {t2, t}, {t2, t2}};
+ARRIS_UNROLL
     for (int k = 0; k < 5; ++k) s.v[4 + k] = simd::exact_multiply_add(factors[k][0], factors[k][1], s.v[4 + k]);
     const V beside_w[] = {u, t, t2, w};
+ARRIS_UNROLL
     for (int k = 0; k < 4; ++k) s.v[10 + k] = simd::exact_multiply_add(w, beside_w[k], s.v[10 + k]);
   }
 };
