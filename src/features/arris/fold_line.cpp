@@ -9,8 +9,6 @@
 #include "features/numerics/exact_sums.h"
 #include "features/numerics/least_squares.h"
 
-#define ARRIS_UNROLL _Pragma("GCC unroll 32")
-
 namespace arris {
 namespace {
 

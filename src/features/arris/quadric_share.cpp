@@ -4,8 +4,6 @@
 
 #include "features/numerics/exact_sums.h"
 
-#define ARRIS_UNROLL _Pragma("GCC unroll 32")
-
 namespace arris {
 namespace {
 

@@ -66,6 +66,52 @@ struct SumMembers {
   }
 };
 
+/// Adds up the products that are there already. They are relative to the origin, as the sums then are.
+struct AddProducts {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(const CandidateSet<float>& c, const BallQuery<float>& ball, BallMoments& out) {
+    using V = typename simd::Wide<Bytes>::Float;
+    using Integers = typename simd::Wide<Bytes>::Int;
+    const CandidateProducts& p = c.products;
+    V n{}, x{}, y{}, z{};
+    Integers xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+    for (std::size_t i = 0; i < simd::padded(c.count); i += Bytes / sizeof(float)) {
+      const V px = simd::load<V>(c.x.data() + i), py = simd::load<V>(c.y.data() + i), pz = simd::load<V>(c.z.data() + i);
+      const V dx = px - ball.x, dy = py - ball.y, dz = pz - ball.z;
+      const auto inside = simd::exact_multiply_add(dz, dz, simd::exact_multiply_add(dy, dy, dx * dx)) <= ball.radius2;
+      n = inside ? n + 1.0F : n;
+      x = inside ? x + px : x;
+      y = inside ? y + py : y;
+      z = inside ? z + pz : z;
+      xx = inside ? xx + simd::load<Integers>(p.xx.data() + i) : xx;
+      xy = inside ? xy + simd::load<Integers>(p.xy.data() + i) : xy;
+      xz = inside ? xz + simd::load<Integers>(p.xz.data() + i) : xz;
+      yy = inside ? yy + simd::load<Integers>(p.yy.data() + i) : yy;
+      yz = inside ? yz + simd::load<Integers>(p.yz.data() + i) : yz;
+      zz = inside ? zz + simd::load<Integers>(p.zz.data() + i) : zz;
+    }
+    const typename simd::Wide<Bytes>::Double sums[] = {
+        simd::exact_doubles(n),  simd::exact_doubles(x),  simd::exact_doubles(y),  simd::exact_doubles(z),
+        simd::exact_doubles(xx), simd::exact_doubles(xy), simd::exact_doubles(xz), simd::exact_doubles(yy),
+        simd::exact_doubles(yz), simd::exact_doubles(zz)};
+    out = std::bit_cast<BallMoments>(simd::exact_lane_sums(sums));
+  }
+};
+
+/// The moments relative to the centre (x, y, z), of moments relative to the origin; exact while all are below 2^53.
+BallMoments moved(const BallMoments& m, double x, double y, double z) {
+  return {m.n,
+          m.x - m.n * x,
+          m.y - m.n * y,
+          m.z - m.n * z,
+          m.xx - 2.0 * x * m.x + m.n * x * x,
+          m.xy - x * m.y - y * m.x + m.n * x * y,
+          m.xz - x * m.z - z * m.x + m.n * x * z,
+          m.yy - 2.0 * y * m.y + m.n * y * y,
+          m.yz - y * m.z - z * m.y + m.n * y * z,
+          m.zz - 2.0 * z * m.z + m.n * z * z};
+}
+
 /// The least and the greatest coordinate along a direction.
 template <class V>
 struct Range {
@@ -111,6 +157,13 @@ struct Extents {
 
 template <class T>
 void sum(const CandidateSet<T>& c, const BallQuery<T>& b, BallMoments& out) {
+  if constexpr (std::is_same_v<T, float>) {
+    if (c.products.exact) {
+      simd::dispatch<AddProducts>(c, b, out);
+      out = moved(out, b.x, b.y, b.z);
+      return;
+    }
+  }
   // A lane adds up one square of at most radius2 per vector.
   const double largest = std::max(static_cast<double>(b.radius2), 1.0);
   if (kLeastRow * largest <= kExactSquares<T>) {

@@ -3,6 +3,7 @@
 /// float). Then neither the order of additions nor the fusing of a product with a sum changes a bit.
 
 #include <array>
+#include <type_traits>
 #include <utility>
 
 #include "features/numerics/simd.h"
@@ -80,13 +81,13 @@ ARRIS_ALWAYS_INLINE std::array<double, Count> exact_lane_sums(const V (&sums)[Co
   return totals;
 }
 
-/// A vector of doubles with the same sum. Of floats, the halves are added as doubles.
+/// A vector of doubles with the same sum. Of floats and 32-bit integers, the halves are added as doubles.
 template <class V>
 ARRIS_ALWAYS_INLINE auto exact_doubles(const V& v) {
   if constexpr (sizeof(v[0]) == sizeof(double)) {
     return v;
   } else {
-    typedef float Half __attribute__((vector_size(sizeof(V) / 2)));
+    typedef std::remove_cvref_t<decltype(v[0])> Half __attribute__((vector_size(sizeof(V) / 2)));
     Half halves[2];
     std::memcpy(halves, &v, sizeof(V));
     using Doubles = typename Wide<static_cast<int>(sizeof(V))>::Double;

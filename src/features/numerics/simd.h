@@ -22,6 +22,8 @@
 #endif
 
 #define ARRIS_ALWAYS_INLINE inline __attribute__((always_inline))
+/// Before a loop over an array of vectors: only without the loop do they stay in registers.
+#define ARRIS_UNROLL _Pragma("GCC unroll 32")
 
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(ARRIS_PLAIN_KERNELS)
 #define ARRIS_X86_KERNELS 1
