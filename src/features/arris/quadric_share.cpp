@@ -42,13 +42,13 @@ struct SumProducts {
           on_grid<kOffsetBits>(in * (plane.normal[0] * x + plane.normal[1] * y + plane.normal[2] * z - plane.offset));
       const V uu = u * u, uv = u * v, vv = v * v;
       const V terms[] = {in, u, v, uu, uv, vv};
-ARRIS_UNROLL
+      ARRIS_UNROLL
       for (int k = 0; k < kUnknowns; ++k) {
         sums[k] += terms[k];
         sums[kPowers + k] = simd::exact_multiply_add(w, terms[k], sums[kPowers + k]);  // w is 0 beyond the radius.
       }
       const V factors[][2] = {{uu, u}, {uu, v}, {u, vv}, {vv, v}, {uu, uu}, {uu, uv}, {uu, vv}, {uv, vv}, {vv, vv}};
-ARRIS_UNROLL
+      ARRIS_UNROLL
       for (int k = 0; k < kPowers - kUnknowns; ++k) {
         sums[kUnknowns + k] = simd::exact_multiply_add(factors[k][0], factors[k][1], sums[kUnknowns + k]);
       }

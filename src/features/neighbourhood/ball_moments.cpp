@@ -66,7 +66,7 @@ struct SumMembers {
   }
 };
 
-/// Adds up the products that are there already. They are relative to the origin, as the sums then are.
+/// Adds up the products that are there already, relative to the origin; all else is relative to the centre.
 struct AddProducts {
   template <int Bytes>
   static ARRIS_ALWAYS_INLINE void run(const CandidateSet<float>& c, const BallQuery<float>& ball, BallMoments& out) {
@@ -76,13 +76,14 @@ struct AddProducts {
     V n{}, x{}, y{}, z{};
     Integers xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
     for (std::size_t i = 0; i < simd::padded(c.count); i += Bytes / sizeof(float)) {
-      const V px = simd::load<V>(c.x.data() + i), py = simd::load<V>(c.y.data() + i), pz = simd::load<V>(c.z.data() + i);
-      const V dx = px - ball.x, dy = py - ball.y, dz = pz - ball.z;
+      const V dx = simd::load<V>(c.x.data() + i) - ball.x;
+      const V dy = simd::load<V>(c.y.data() + i) - ball.y;
+      const V dz = simd::load<V>(c.z.data() + i) - ball.z;
       const auto inside = simd::exact_multiply_add(dz, dz, simd::exact_multiply_add(dy, dy, dx * dx)) <= ball.radius2;
       n = inside ? n + 1.0F : n;
-      x = inside ? x + px : x;
-      y = inside ? y + py : y;
-      z = inside ? z + pz : z;
+      x = inside ? x + dx : x;
+      y = inside ? y + dy : y;
+      z = inside ? z + dz : z;
       xx = inside ? xx + simd::load<Integers>(p.xx.data() + i) : xx;
       xy = inside ? xy + simd::load<Integers>(p.xy.data() + i) : xy;
       xz = inside ? xz + simd::load<Integers>(p.xz.data() + i) : xz;
@@ -98,18 +99,18 @@ struct AddProducts {
   }
 };
 
-/// The moments relative to the centre (x, y, z), of moments relative to the origin; exact while all are below 2^53.
-BallMoments moved(const BallMoments& m, double x, double y, double z) {
+/// Makes the sums of products relative to the centre (x, y, z), too; exact while all is below 2^53.
+BallMoments about_centre(const BallMoments& m, double x, double y, double z) {
   return {m.n,
-          m.x - m.n * x,
-          m.y - m.n * y,
-          m.z - m.n * z,
-          m.xx - 2.0 * x * m.x + m.n * x * x,
-          m.xy - x * m.y - y * m.x + m.n * x * y,
-          m.xz - x * m.z - z * m.x + m.n * x * z,
-          m.yy - 2.0 * y * m.y + m.n * y * y,
-          m.yz - y * m.z - z * m.y + m.n * y * z,
-          m.zz - 2.0 * z * m.z + m.n * z * z};
+          m.x,
+          m.y,
+          m.z,
+          m.xx - 2.0 * x * m.x - m.n * x * x,
+          m.xy - x * m.y - y * m.x - m.n * x * y,
+          m.xz - x * m.z - z * m.x - m.n * x * z,
+          m.yy - 2.0 * y * m.y - m.n * y * y,
+          m.yz - y * m.z - z * m.y - m.n * y * z,
+          m.zz - 2.0 * z * m.z - m.n * z * z};
 }
 
 /// The least and the greatest coordinate along a direction.
@@ -160,7 +161,7 @@ void sum(const CandidateSet<T>& c, const BallQuery<T>& b, BallMoments& out) {
   if constexpr (std::is_same_v<T, float>) {
     if (c.products.exact) {
       simd::dispatch<AddProducts>(c, b, out);
-      out = moved(out, b.x, b.y, b.z);
+      out = about_centre(out, b.x, b.y, b.z);
       return;
     }
   }

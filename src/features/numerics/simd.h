@@ -118,8 +118,8 @@ ARRIS_ALWAYS_INLINE L shift_right_unsigned(const L& v, int by) {
   return (L)((typename Wide<sizeof(L)>::Unsigned)v >> static_cast<std::uint64_t>(by));
 }
 
-/// 1.0 in the lanes that `mask` is set in, else 0.0: by its bits, because selections that are combined are taken apart by
-/// compilers, lane by lane.
+/// 1.0 in the lanes that `mask` is set in, else 0.0: by its bits, because selections that are combined are taken apart
+/// by compilers, lane by lane.
 template <class V, class Mask>
 ARRIS_ALWAYS_INLINE V ones(const Mask& mask) {
   constexpr std::int64_t kOne = 0x3ff0000000000000;
