@@ -104,10 +104,9 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const T
     cancel.check();
     const tiling::PlannedTile& planned = job.tiles.tiles[tile];
     const MemoryBudget::Reservation bytes = budget.reserve(job.memory.tile_bytes(planned.covered_points));
-    store.build(tile);
     TileOutcome outcome;
     {
-      TilePoints points = store.load(tile);
+      TilePoints points = store.build(tile);
       points.covered = points.covered.unlimited_beyond(job.survey.bounds);
       outcome = analysis(points, std::nullopt);
     }

@@ -193,6 +193,47 @@ PointDataTree::Ptr make_tree(std::span<const LatticePoint> positions, std::span<
   return tree;
 }
 
+/// Frees the attributes of the leaves as it goes.
+SortedPoints take_points(PointDataGrid& grid, const std::function<bool(const LatticeBox&)>& wanted) {
+  const int log2 = grid.metaValue<std::int32_t>(kVoxelMeta);
+  if (log2 < 0 || log2 > kFixedVoxelLog2) throw std::runtime_error("has an unknown storage voxel");
+
+  if (lists_scattered_points(grid.tree())) return take_scattered_points(grid.tree(), wanted);
+
+  std::vector<Leaf*> leaves;
+  grid.tree().getNodes(leaves);
+  if (wanted) std::erase_if(leaves, [&](const Leaf* leaf) { return !wanted(box_of(*leaf, log2)); });
+  std::ranges::sort(leaves, [](const Leaf* a, const Leaf* b) {
+    const auto corner = [](const Leaf* leaf) {
+      return LatticePoint{leaf->origin().x(), leaf->origin().y(), leaf->origin().z()};
+    };
+    return z_order_less(corner(a), corner(b));
+  });
+  std::vector<std::size_t> begin(leaves.size() + 1, 0);
+  for (std::size_t i = 0; i < leaves.size(); ++i) begin[i + 1] = begin[i] + leaves[i]->getLastValue();
+
+  SortedPoints out;
+  out.positions.resize(begin.back());
+  out.ids.resize(begin.back());
+  parallel_for_chunks(leaves.size(), kGrainLeaves, [&](std::size_t first, std::size_t last) {
+    std::vector<KeyedId> points;
+    for (std::size_t i = first; i < last; ++i) {
+      Leaf& leaf = *leaves[i];
+      read_leaf(leaf, log2, points);
+      const openvdb::Coord& corner = leaf.origin();
+      for (std::size_t n = 0; n < points.size(); ++n) {
+        const std::uint64_t key = points[n].first;
+        out.positions[begin[i] + n] = {to_steps(corner.x(), log2) + static_cast<std::int32_t>(gather_bits(key >> 2)),
+                                       to_steps(corner.y(), log2) + static_cast<std::int32_t>(gather_bits(key >> 1)),
+                                       to_steps(corner.z(), log2) + static_cast<std::int32_t>(gather_bits(key))};
+        out.ids[begin[i] + n] = points[n].second;
+      }
+      leaf.clearAttributes(false);  // Frees as it goes.
+    }
+  });
+  return out;
+}
+
 }  // namespace
 
 struct PointGrid::Impl {
@@ -232,6 +273,10 @@ void PointGrid::write(std::ostream& stream) const {
   archive.write(openvdb::GridCPtrVec{impl_->grid});
 }
 
+SortedPoints PointGrid::take_points() && {
+  return tiling::take_points(*impl_->grid, {});
+}
+
 SortedPoints read_point_grid(std::istream& stream, const std::function<bool(const LatticeBox&)>& wanted) {
   initialize_openvdb();
   const openvdb::GridPtrVecPtr grids = openvdb::io::Stream(stream, /*delayLoad=*/false).getGrids();
@@ -239,43 +284,7 @@ SortedPoints read_point_grid(std::istream& stream, const std::function<bool(cons
   const auto grid = openvdb::gridPtrCast<PointDataGrid>(grids->front());
   if (!grid) throw std::runtime_error("holds no points");
   grids->clear();
-  const int log2 = grid->metaValue<std::int32_t>(kVoxelMeta);
-  if (log2 < 0 || log2 > kFixedVoxelLog2) throw std::runtime_error("has an unknown storage voxel");
-
-  if (lists_scattered_points(grid->tree())) return take_scattered_points(grid->tree(), wanted);
-
-  std::vector<Leaf*> leaves;
-  grid->tree().getNodes(leaves);
-  if (wanted) std::erase_if(leaves, [&](const Leaf* leaf) { return !wanted(box_of(*leaf, log2)); });
-  std::ranges::sort(leaves, [](const Leaf* a, const Leaf* b) {
-    const auto corner = [](const Leaf* leaf) {
-      return LatticePoint{leaf->origin().x(), leaf->origin().y(), leaf->origin().z()};
-    };
-    return z_order_less(corner(a), corner(b));
-  });
-  std::vector<std::size_t> begin(leaves.size() + 1, 0);
-  for (std::size_t i = 0; i < leaves.size(); ++i) begin[i + 1] = begin[i] + leaves[i]->getLastValue();
-
-  SortedPoints out;
-  out.positions.resize(begin.back());
-  out.ids.resize(begin.back());
-  parallel_for_chunks(leaves.size(), kGrainLeaves, [&](std::size_t first, std::size_t last) {
-    std::vector<KeyedId> points;
-    for (std::size_t i = first; i < last; ++i) {
-      Leaf& leaf = *leaves[i];
-      read_leaf(leaf, log2, points);
-      const openvdb::Coord& corner = leaf.origin();
-      for (std::size_t n = 0; n < points.size(); ++n) {
-        const std::uint64_t key = points[n].first;
-        out.positions[begin[i] + n] = {to_steps(corner.x(), log2) + static_cast<std::int32_t>(gather_bits(key >> 2)),
-                                       to_steps(corner.y(), log2) + static_cast<std::int32_t>(gather_bits(key >> 1)),
-                                       to_steps(corner.z(), log2) + static_cast<std::int32_t>(gather_bits(key))};
-        out.ids[begin[i] + n] = points[n].second;
-      }
-      leaf.clearAttributes(false);  // Frees as it goes.
-    }
-  });
-  return out;
+  return take_points(*grid, wanted);
 }
 
 }  // namespace arris::tiling

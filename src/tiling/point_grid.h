@@ -40,6 +40,8 @@ class PointGrid {
   PointGrid& operator=(const PointGrid&) = delete;
 
   void write(std::ostream& stream) const;
+  /// The points, sorted as if they were read back; what the grid keeps of them is freed on the way.
+  SortedPoints take_points() &&;
 
  private:
   struct Impl;

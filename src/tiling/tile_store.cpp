@@ -62,6 +62,14 @@ struct TileStore::Impl {
 
   SortedPoints read(std::size_t tile, const std::function<bool(const LatticeBox&)>& near = {}) const;
 
+  TilePoints folded(std::size_t tile, SortedPoints&& points) const {
+    TilePoints out;
+    out.core = tiles.at(tile).core;
+    out.covered = tiles.at(tile).covered;
+    fold_sorted(std::move(points.positions), std::move(points.ids), out);
+    return out;
+  }
+
   const std::filesystem::path folder;
   const Lattice lattice;
   const std::vector<PlannedTile> tiles;
@@ -76,13 +84,13 @@ TileStore::TileStore(std::filesystem::path folder, const Lattice& lattice, const
     : impl_(std::make_unique<Impl>(std::move(folder), lattice, plan, std::move(parameters_hash))) {}
 TileStore::~TileStore() = default;
 
-void TileStore::build(std::size_t tile) {
+TilePoints TileStore::build(std::size_t tile) {
   const std::filesystem::path spool = spool_path(impl_->folder, tile);
   std::vector<LatticePoint> positions;
   std::vector<std::uint64_t> ids;
   read_spool(spool, positions, ids);
   const std::uint64_t points = positions.size();
-  const PointGrid grid(positions, ids, impl_->metadata(tile));
+  PointGrid grid(positions, ids, impl_->metadata(tile));
   std::vector<LatticePoint>().swap(positions);
   std::vector<std::uint64_t>().swap(ids);
 
@@ -110,6 +118,7 @@ void TileStore::build(std::size_t tile) {
   }
   std::error_code ignored;  // A spool that stays costs space, nothing else.
   std::filesystem::remove(spool, ignored);
+  return impl_->folded(tile, std::move(grid).take_points());
 }
 
 SortedPoints TileStore::Impl::read(std::size_t tile, const std::function<bool(const LatticeBox&)>& near) const {
@@ -151,12 +160,7 @@ SortedPoints TileStore::Impl::read(std::size_t tile, const std::function<bool(co
 }
 
 TilePoints TileStore::load(std::size_t tile) const {
-  SortedPoints points = impl_->read(tile);
-  TilePoints out;
-  out.core = impl_->tiles.at(tile).core;
-  out.covered = impl_->tiles.at(tile).covered;
-  fold_sorted(std::move(points.positions), std::move(points.ids), out);
-  return out;
+  return impl_->folded(tile, impl_->read(tile));
 }
 
 void TileStore::load_core(std::size_t tile, const std::function<bool(const LatticePoint&)>& keep,

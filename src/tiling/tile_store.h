@@ -25,8 +25,8 @@ class TileStore {
 
   /// Turns "<index>.spool" into "<index>.vdb" through a checked stream under a temporary name (flush, fsync, size
   /// compared, XXH3 recorded, rename), then removes the spool. Throws IoError; the spool stays then and no
-  /// "<index>.vdb" appears.
-  void build(std::size_t tile);
+  /// "<index>.vdb" appears. Returns what load() would, without reading it back.
+  TilePoints build(std::size_t tile);
   /// Reads a tile back. Throws IoError if its bytes are not those that were written. Exact duplicates are folded;
   /// positions are in Z-order.
   TilePoints load(std::size_t tile) const;

@@ -258,6 +258,33 @@ TEST(BallMoments, SumsBeyondFloat_AreExactFromFloats) {
             std::tie(b.n, b.x, b.y, b.z, b.xx, b.xy, b.xz, b.yy, b.yz, b.zz));
 }
 
+TEST(BallMoments, FromProducts_AreTheSame) {
+  const TilePoints tile = test::tile_of(
+      [] {
+        std::vector<LatticePoint> positions;
+        for (std::int32_t i = 0; i < 500; ++i) positions.push_back({i * 37 % 611, i * 101 % 499, i * 13 % 83});
+        return positions;
+      }(),
+      1);
+  const PointTree tree = tree_of(tile);
+  CandidateSet<float> plain, multiplied;
+  const ClosedBox box{{100, 120, 0}, {300, 351, 80}};
+  constexpr double kRadius = 250.0;
+  ASSERT_TRUE(plain.gather(tree, box, kRadius));
+  ASSERT_TRUE(multiplied.gather(tree, box, kRadius));
+  multiplied.multiply();
+  ASSERT_TRUE(multiplied.products.exact);
+  for (const BallQuery<float>& ball : {BallQuery<float>{-100, 115, 40, 62500}, BallQuery<float>{77, -90, -33, 10000}}) {
+    const BallMoments a = ball_moments(plain, ball);
+    const BallMoments b = ball_moments(multiplied, ball);
+    EXPECT_GT(a.n, 1.0);
+    EXPECT_EQ(std::tie(a.n, a.x, a.y, a.z, a.xx, a.xy, a.xz, a.yy, a.yz, a.zz),
+              std::tie(b.n, b.x, b.y, b.z, b.xx, b.xy, b.xz, b.yy, b.yz, b.zz));
+  }
+  multiplied.products.make(multiplied.x, multiplied.y, multiplied.z, multiplied.count, 4e4);
+  EXPECT_FALSE(multiplied.products.exact);
+}
+
 TEST(CandidateSet, CoordinatesTooLargeForFloat_AreRefused) {
   const TilePoints tile = test::tile_of({{0, 0, 0}, {20000000, 1, 2}}, 1);
   const PointTree tree = tree_of(tile);

@@ -1,5 +1,5 @@
 #pragma once
-/// @file Runs arris's own method for the queries of one bucket after the other; one runner per chunk of buckets.
+/// @file Runs arris's own method for the queries of one bucket after the other; one runner per thread.
 
 #include <cstdint>
 #include <span>
@@ -28,7 +28,7 @@ struct ArrisTask {
   std::uint64_t max_d2 = 0;  ///< floor(R_max²).
 };
 
-/// Not thread-safe; make one per chunk.
+/// Not thread-safe; make one per thread.
 class ArrisRunner {
  public:
   struct Found {

@@ -1,8 +1,8 @@
 #include "features/arris/fold_line.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 
 #include "features/numerics/exact_math.h"
@@ -70,6 +70,7 @@ struct SumArms {
       const V z = real * simd::load<V>(p.z.data() + i) - f.origin[2];
       const V t = on_grid<kRegressorBits>(f.t[0] * x + f.t[1] * y + f.t[2] * z);
       V u[2], w[2], off[2];
+      ARRIS_UNROLL
       for (int k = 0; k < 2; ++k) {
         u[k] = on_grid<kRegressorBits>(f.away[k][0] * x + f.away[k][1] * y + f.away[k][2] * z);
         w[k] = on_grid<kOffsetBits>(f.normal[k][0] * x + f.normal[k][1] * y + f.normal[k][2] * z);
@@ -77,17 +78,14 @@ struct SumArms {
       }
       const V in_a = real * simd::where_above(off[1], off[0]);
       V near[2];
+      ARRIS_UNROLL
       for (int k = 0; k < 2; ++k) {
         near[k] = simd::where_at_most(off[k] * off[k], gate * gate);
       }
       add(in_a * near[0], t, u[0], w[0], sums[0]);
       add((real - in_a) * near[1], t, u[1], w[1], sums[1]);
     }
-    for (int k = 0; k < 2; ++k) {
-      double total[14];
-      for (int j = 0; j < 14; ++j) total[j] = simd::exact_lane_sum(sums[k].v[j]);
-      std::memcpy(&out[k], total, sizeof total);
-    }
+    for (int k = 0; k < 2; ++k) out[k] = std::bit_cast<ArmSums>(simd::exact_lane_sums(sums[k].v));
   }
 
   /// `weight` is 0 or 1.
@@ -103,8 +101,10 @@ struct SumArms {
     s.v[3] += t2;
     s.v[9] += w;
     const V factors[][2] = {{u, u}, {u, t}, {u, t2}, {t2, t}, {t2, t2}};
+    ARRIS_UNROLL
     for (int k = 0; k < 5; ++k) s.v[4 + k] = simd::exact_multiply_add(factors[k][0], factors[k][1], s.v[4 + k]);
     const V beside_w[] = {u, t, t2, w};
+    ARRIS_UNROLL
     for (int k = 0; k < 4; ++k) s.v[10 + k] = simd::exact_multiply_add(w, beside_w[k], s.v[10 + k]);
   }
 };
@@ -203,22 +203,37 @@ bool intersect(const ArmFrame& f, const ArmSurface* surfaces, FoldLine& line, do
   return true;
 }
 
-void count_support(const BallPoints& p, const ArmFrame& f, const ArmSurface* surfaces, FoldLine& line) {
-  const double gate = std::max(kGateDeviations * line.rms, kSupportGate);
-  line.support_a = line.support_b = 0;
-  for (std::size_t i = 0; i < p.count; ++i) {
-    const Vector3 q{p.x[i] - line.foot[0], p.y[i] - line.foot[1], p.z[i] - line.foot[2]};
-    if (std::fabs(dot(f.t, q)) > kSupportReach) continue;
-    double off[2], u[2];
-    for (int k = 0; k < 2; ++k) {
-      u[k] = dot(f.away[k], q);
-      off[k] = std::fabs(dot(f.normal[k], q) - surfaces[k].b * u[k]);
+/// Members beside the foot, within the gate of the arm that is nearer.
+struct CountSupport {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(const BallPoints& p, const ArmFrame& f, const ArmSurface* surfaces, double gate,
+                                      FoldLine& line) {
+    using V = typename simd::Wide<Bytes>::Double;
+    V counts[2]{};
+    for (std::size_t i = 0; i < p.padded_count(); i += Bytes / sizeof(double)) {
+      const V px = simd::load<V>(p.x.data() + i);
+      const V real = simd::where_above(V{} + BallPoints::kPaddingCoordinate, px);
+      const V x = px - line.foot[0];
+      const V y = simd::load<V>(p.y.data() + i) - line.foot[1];
+      const V z = simd::load<V>(p.z.data() + i) - line.foot[2];
+      const V t = simd::magnitude(f.t[0] * x + f.t[1] * y + f.t[2] * z);
+      V off[2], beside[2];
+      ARRIS_UNROLL
+      for (int k = 0; k < 2; ++k) {
+        const V u = f.away[k][0] * x + f.away[k][1] * y + f.away[k][2] * z;
+        off[k] = simd::magnitude(f.normal[k][0] * x + f.normal[k][1] * y + f.normal[k][2] * z - surfaces[k].b * u);
+        beside[k] = simd::where_at_most(off[k], gate) * simd::where_at_most(V{} - kSupportBehind, u) *
+                    simd::where_at_most(u, kSupportReach);
+      }
+      const V near = real * simd::where_at_most(t, kSupportReach);
+      const V of_a = simd::where_at_most(off[0], off[1]);
+      counts[0] += near * of_a * beside[0];
+      counts[1] += near * (1.0 - of_a) * beside[1];
     }
-    const int k = off[0] <= off[1] ? 0 : 1;
-    if (off[k] > gate || u[k] < -kSupportBehind || u[k] > kSupportReach) continue;
-    ++(k == 0 ? line.support_a : line.support_b);
+    line.support_a = static_cast<int>(simd::exact_lane_sum(counts[0]));
+    line.support_b = static_cast<int>(simd::exact_lane_sum(counts[1]));
   }
-}
+};
 
 }  // namespace
 
@@ -251,7 +266,7 @@ bool refine_fold(const BallPoints& points, const PlanePair& pair, FoldLine& line
   // The line moves by the arms' errors over the sine of the angle at which they cross.
   const double variance = kRimVariance * line.rms * line.rms * (1.0 / line.count_a + 1.0 / line.count_b);
   line.position_error = std::sqrt(variance / std::max(sine2, 0.01));
-  count_support(points, frame, surfaces, line);
+  simd::dispatch<CountSupport>(points, frame, surfaces, std::max(kGateDeviations * line.rms, kSupportGate), line);
   return true;
 }
 

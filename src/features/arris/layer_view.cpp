@@ -73,10 +73,12 @@ struct Look {
       simd::store(view.v.data() + i, v);
       simd::store(view.reach2.data() + i, of_layer * reach2 - (1.0 - of_layer));
     }
-    view.count = simd::exact_lane_sum(count);
-    view.inner = simd::exact_lane_sum(inner);
-    view.beyond = simd::exact_lane_sum(beyond);
-    view.azimuths = simd::exact_lane_sum(azimuths);
+    const V counts[] = {count, inner, beyond, azimuths};
+    const std::array<double, 4> totals = simd::exact_lane_sums(counts);
+    view.count = totals[0];
+    view.inner = totals[1];
+    view.beyond = totals[2];
+    view.azimuths = totals[3];
     std::uint64_t all = 0;
     std::uint64_t near = 0;
     for (std::size_t lane = 0; lane < Bytes / sizeof(double); ++lane) {

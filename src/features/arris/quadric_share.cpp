@@ -42,17 +42,20 @@ struct SumProducts {
           on_grid<kOffsetBits>(in * (plane.normal[0] * x + plane.normal[1] * y + plane.normal[2] * z - plane.offset));
       const V uu = u * u, uv = u * v, vv = v * v;
       const V terms[] = {in, u, v, uu, uv, vv};
+      ARRIS_UNROLL
       for (int k = 0; k < kUnknowns; ++k) {
         sums[k] += terms[k];
         sums[kPowers + k] = simd::exact_multiply_add(w, terms[k], sums[kPowers + k]);  // w is 0 beyond the radius.
       }
       const V factors[][2] = {{uu, u}, {uu, v}, {u, vv}, {vv, v}, {uu, uu}, {uu, uv}, {uu, vv}, {uv, vv}, {vv, vv}};
+      ARRIS_UNROLL
       for (int k = 0; k < kPowers - kUnknowns; ++k) {
         sums[kUnknowns + k] = simd::exact_multiply_add(factors[k][0], factors[k][1], sums[kUnknowns + k]);
       }
       sums[kSums - 1] = simd::exact_multiply_add(w, w, sums[kSums - 1]);
     }
-    for (int k = 0; k < kSums; ++k) columns.sums[k][lane] = simd::exact_lane_sum(sums[k]);
+    const std::array<double, kSums> totals = simd::exact_lane_sums(sums);
+    for (int k = 0; k < kSums; ++k) columns.sums[k][lane] = totals[static_cast<std::size_t>(k)];
   }
 };
 

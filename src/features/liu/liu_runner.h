@@ -1,5 +1,5 @@
 #pragma once
-/// @file Runs the method for the queries of one bucket after the other; one runner per chunk of buckets.
+/// @file Runs the method for the queries of one bucket after the other; one runner per thread.
 
 #include <array>
 #include <cstdint>
@@ -26,7 +26,7 @@ struct LiuTask {
   ContourAccumulator& results;
 };
 
-/// Not thread-safe; make one per chunk.
+/// Not thread-safe; make one per thread.
 class LiuRunner {
  public:
   explicit LiuRunner(const LiuTask& task);

@@ -1,6 +1,7 @@
 #include "features/neighbourhood/ball_moments.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -21,18 +22,20 @@ struct SumMembers {
   static ARRIS_ALWAYS_INLINE void run(const CandidateSet<T>& c, const BallQuery<T>& ball, std::size_t vectors_in_row,
                                       BallMoments& out) {
     constexpr std::size_t kLanes = simd::VectorOf<Sum, Bytes>::kLanes;
+    typename simd::Wide<Bytes>::Double totals[10]{};
     const std::size_t end = simd::padded(c.count);
     for (std::size_t begin = 0; begin < end;) {
       const std::size_t stop = std::min(end - begin, vectors_in_row * kLanes) + begin;
-      add_row<Bytes>(c, ball, begin, stop, out);
+      add_row<Bytes>(c, ball, begin, stop, totals);
       begin = stop;
     }
+    out = std::bit_cast<BallMoments>(simd::exact_lane_sums(totals));
   }
 
  private:
   template <int Bytes, class T>
   static ARRIS_ALWAYS_INLINE void add_row(const CandidateSet<T>& c, const BallQuery<T>& ball, std::size_t begin,
-                                          std::size_t end, BallMoments& out) {
+                                          std::size_t end, typename simd::Wide<Bytes>::Double (&totals)[10]) {
     using V = typename simd::VectorOf<Sum, Bytes>::Type;
     constexpr std::size_t kLanes = simd::VectorOf<Sum, Bytes>::kLanes;
     typedef T Loaded __attribute__((vector_size(kLanes * sizeof(T))));
@@ -59,10 +62,56 @@ struct SumMembers {
       zz = simd::exact_multiply_add(dz, dz, zz);
     }
     const V* const sums[] = {&n, &x, &y, &z, &xx, &xy, &xz, &yy, &yz, &zz};
-    double* const totals[] = {&out.n, &out.x, &out.y, &out.z, &out.xx, &out.xy, &out.xz, &out.yy, &out.yz, &out.zz};
-    for (int i = 0; i < 10; ++i) *totals[i] += simd::exact_lane_sum(*sums[i]);
+    for (int i = 0; i < 10; ++i) totals[i] += simd::exact_doubles(*sums[i]);
   }
 };
+
+/// Adds up the products that are there already, relative to the origin; all else is relative to the centre.
+struct AddProducts {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(const CandidateSet<float>& c, const BallQuery<float>& ball, BallMoments& out) {
+    using V = typename simd::Wide<Bytes>::Float;
+    using Integers = typename simd::Wide<Bytes>::Int;
+    const CandidateProducts& p = c.products;
+    V n{}, x{}, y{}, z{};
+    Integers xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+    for (std::size_t i = 0; i < simd::padded(c.count); i += Bytes / sizeof(float)) {
+      const V dx = simd::load<V>(c.x.data() + i) - ball.x;
+      const V dy = simd::load<V>(c.y.data() + i) - ball.y;
+      const V dz = simd::load<V>(c.z.data() + i) - ball.z;
+      const auto inside = simd::exact_multiply_add(dz, dz, simd::exact_multiply_add(dy, dy, dx * dx)) <= ball.radius2;
+      n = inside ? n + 1.0F : n;
+      x = inside ? x + dx : x;
+      y = inside ? y + dy : y;
+      z = inside ? z + dz : z;
+      xx = inside ? xx + simd::load<Integers>(p.xx.data() + i) : xx;
+      xy = inside ? xy + simd::load<Integers>(p.xy.data() + i) : xy;
+      xz = inside ? xz + simd::load<Integers>(p.xz.data() + i) : xz;
+      yy = inside ? yy + simd::load<Integers>(p.yy.data() + i) : yy;
+      yz = inside ? yz + simd::load<Integers>(p.yz.data() + i) : yz;
+      zz = inside ? zz + simd::load<Integers>(p.zz.data() + i) : zz;
+    }
+    const typename simd::Wide<Bytes>::Double sums[] = {
+        simd::exact_doubles(n),  simd::exact_doubles(x),  simd::exact_doubles(y),  simd::exact_doubles(z),
+        simd::exact_doubles(xx), simd::exact_doubles(xy), simd::exact_doubles(xz), simd::exact_doubles(yy),
+        simd::exact_doubles(yz), simd::exact_doubles(zz)};
+    out = std::bit_cast<BallMoments>(simd::exact_lane_sums(sums));
+  }
+};
+
+/// Makes the sums of products relative to the centre (x, y, z), too; exact while all is below 2^53.
+BallMoments about_centre(const BallMoments& m, double x, double y, double z) {
+  return {m.n,
+          m.x,
+          m.y,
+          m.z,
+          m.xx - 2.0 * x * m.x - m.n * x * x,
+          m.xy - x * m.y - y * m.x - m.n * x * y,
+          m.xz - x * m.z - z * m.x - m.n * x * z,
+          m.yy - 2.0 * y * m.y - m.n * y * y,
+          m.yz - y * m.z - z * m.y - m.n * y * z,
+          m.zz - 2.0 * z * m.z - m.n * z * z};
+}
 
 /// The least and the greatest coordinate along a direction.
 template <class V>
@@ -109,6 +158,13 @@ struct Extents {
 
 template <class T>
 void sum(const CandidateSet<T>& c, const BallQuery<T>& b, BallMoments& out) {
+  if constexpr (std::is_same_v<T, float>) {
+    if (c.products.exact) {
+      simd::dispatch<AddProducts>(c, b, out);
+      out = about_centre(out, b.x, b.y, b.z);
+      return;
+    }
+  }
   // A lane adds up one square of at most radius2 per vector.
   const double largest = std::max(static_cast<double>(b.radius2), 1.0);
   if (kLeastRow * largest <= kExactSquares<T>) {

@@ -87,7 +87,10 @@ class BallSearch {
     if ((reach + 1.0) * (reach + 1.0) >= kExactSquares<T>) return false;
     const ClosedBox box = detail::box_of(tree_, balls, [](const Ball& ball) { return ball.slot; });
     if (!candidates.gather(tree_, box, reach)) return false;
-    if (exact_ == Exact::kSums && !ball_sums_are_exact<T>(reach)) return false;
+    if (exact_ == Exact::kSums) {
+      if (!ball_sums_are_exact<T>(reach)) return false;
+      candidates.multiply();
+    }
     work.queries.clear();
     for (const Ball& ball : balls) work.queries.push_back(query_of(tree_, candidates, ball));
     use(static_cast<const CandidateSet<T>&>(candidates), std::span<const BallQuery<T>>(work.queries), balls);

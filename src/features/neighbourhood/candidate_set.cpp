@@ -137,12 +137,15 @@ bool CandidateSet<T>::gather(const PointTree& tree, const ClosedBox& box, double
     window.high[axis] = static_cast<T>(box.max[axis] - origin[axis]);
   }
   window.reach2 = static_cast<T>((reach + 1.0) * (reach + 1.0));
+  farthest = 0.0;
+  for (const T& high : window.high) farthest = std::max(farthest, static_cast<double>(high) + reach + 2.0);
+  products.exact = false;
   std::size_t n = 0;
   bool exact = true;
   tree.visit_near(box, reach + 1.0, [&](std::size_t begin, std::size_t end, const ClosedBox& bucket) {
     for (int axis = 0; axis < 3; ++axis) {
-      const std::int64_t farthest = std::max(origin[axis] - bucket.min[axis], bucket.max[axis] - origin[axis]);
-      if (static_cast<double>(farthest) > kExactSquares<T>) exact = false;
+      const std::int64_t offset = std::max(origin[axis] - bucket.min[axis], bucket.max[axis] - origin[axis]);
+      if (static_cast<double>(offset) > kExactSquares<T>) exact = false;
     }
     if (!exact) return;
     make_room(n + (end - begin) + simd::kPadding);
@@ -154,6 +157,11 @@ bool CandidateSet<T>::gather(const PointTree& tree, const ClosedBox& box, double
   make_room(size);
   for (std::size_t i = n; i < size; ++i) x[i] = y[i] = z[i] = kOutside<T>;
   return true;
+}
+
+template <class T>
+void CandidateSet<T>::multiply() {
+  if constexpr (std::is_same_v<T, float>) products.make(x, y, z, count, farthest);
 }
 
 template struct CandidateSet<float>;

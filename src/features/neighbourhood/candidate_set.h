@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "features/neighbourhood/candidate_products.h"
 #include "features/neighbourhood/point_tree.h"
 #include "features/numerics/simd.h"
 
@@ -43,12 +44,16 @@ struct CandidateSet {
   std::vector<std::uint32_t> slot;  ///< Index in tree order.
   std::size_t count = 0;
   std::int64_t origin[3] = {0, 0, 0};
+  double farthest = 0.0;       ///< No coordinate is farther from 0.
+  CandidateProducts products;  ///< For ball_moments(), where asked for.
 
   /// Every point within `reach` steps of `box`, and some more: complete for queries inside the box up to that distance.
   /// Arrays are padded to a multiple of simd::kPadding with points far outside of any reach. Returns false, with no
   /// meaningful content, if a coordinate is not exact in T: the caller takes a wider type. O(points in the buckets that
   /// the reach touches).
   bool gather(const PointTree& tree, const ClosedBox& box, double reach);
+  /// Makes the products of what was gathered: worth it for the moments of several balls. Only floats have them.
+  void multiply();
 
  private:
   void make_room(std::size_t size);

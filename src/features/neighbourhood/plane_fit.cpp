@@ -1,6 +1,7 @@
 #include "features/neighbourhood/plane_fit.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "features/numerics/exact_sums.h"
@@ -33,9 +34,8 @@ struct Sums {
     zz = simd::exact_multiply_add(wz, pz, zz);
   }
   ARRIS_ALWAYS_INLINE PointSums total() const {
-    return {simd::exact_lane_sum(n),  simd::exact_lane_sum(x),  simd::exact_lane_sum(y),  simd::exact_lane_sum(z),
-            simd::exact_lane_sum(xx), simd::exact_lane_sum(xy), simd::exact_lane_sum(xz), simd::exact_lane_sum(yy),
-            simd::exact_lane_sum(yz), simd::exact_lane_sum(zz)};
+    const V sums[] = {n, x, y, z, xx, xy, xz, yy, yz, zz};
+    return std::bit_cast<PointSums>(simd::exact_lane_sums(sums));
   }
 };
 

@@ -2,8 +2,10 @@
 /// @file Runs a method's runner over the queries of a tile, bucket by bucket, in parallel.
 
 #include <algorithm>
+#include <memory>
 #include <mutex>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.h"
@@ -13,20 +15,30 @@
 
 namespace arris {
 
-/// Buckets per work item: enough to make a runner's scratch memory cheap, few enough to balance the load.
+/// Buckets per work item: enough to make taking one cheap, few enough to balance the load.
 constexpr std::size_t kChunkBuckets = 64;
 
 /// The queries are the points of `tile.core`, or, if given, the entries whose `wanted` is not 0.
 /// @param make    returns a runner with run(span of slots that are close together) and take_unproven().
-/// @param finish  called with each runner when its chunk is done, one at a time.
+/// @param finish  called with each runner when all is done, one at a time. There is one for every thread that ran:
+///                to make their scratch memory grow anew for every chunk would cost more than it saves.
 /// @return unproven queries, ascending ids.
 template <class Make, class Finish>
 std::vector<UnprovenQuery> run_queries(const PointTree& tree, const TilePoints& tile,
                                        const std::vector<std::uint8_t>* wanted, Make&& make, Finish&& finish) {
-  std::vector<UnprovenQuery> unproven;
-  std::mutex mutex;  // Guards `unproven` and what `finish` writes to.
+  using Runner = decltype(make());
+  std::vector<std::unique_ptr<Runner>> idle;
+  std::mutex mutex;  // Guards `idle`.
   parallel_for_chunks(tree.buckets(), kChunkBuckets, [&](std::size_t first, std::size_t last) {
-    auto runner = make();
+    std::unique_ptr<Runner> runner;
+    {
+      const std::lock_guard lock(mutex);
+      if (!idle.empty()) {
+        runner = std::move(idle.back());
+        idle.pop_back();
+      }
+    }
+    if (!runner) runner.reset(new Runner(make()));
     std::vector<std::uint32_t> slots;
     for (std::size_t bucket = first; bucket < last; ++bucket) {
       slots.clear();
@@ -35,13 +47,18 @@ std::vector<UnprovenQuery> run_queries(const PointTree& tree, const TilePoints& 
         const bool asked = wanted ? (*wanted)[tree.entry(slot)] != 0 : tile.core.contains(tree.position(slot));
         if (asked) slots.push_back(static_cast<std::uint32_t>(slot));
       }
-      runner.run(slots);
+      if (!slots.empty()) runner->run(slots);
     }
-    const std::vector<UnprovenQuery> more = runner.take_unproven();
     const std::lock_guard lock(mutex);
-    unproven.insert(unproven.end(), more.begin(), more.end());
-    finish(runner);
+    idle.push_back(std::move(runner));
   });
+  std::vector<UnprovenQuery> unproven;
+  for (std::unique_ptr<Runner>& runner : idle) {
+    const std::vector<UnprovenQuery> more = runner->take_unproven();
+    unproven.insert(unproven.end(), more.begin(), more.end());
+    finish(*runner);
+    runner.reset();
+  }
   std::sort(unproven.begin(), unproven.end(),
             [](const UnprovenQuery& a, const UnprovenQuery& b) { return a.id < b.id; });
   return unproven;

@@ -22,6 +22,8 @@
 #endif
 
 #define ARRIS_ALWAYS_INLINE inline __attribute__((always_inline))
+/// Before a loop over an array of vectors: only without the loop do they stay in registers.
+#define ARRIS_UNROLL _Pragma("GCC unroll 32")
 
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(ARRIS_PLAIN_KERNELS)
 #define ARRIS_X86_KERNELS 1
@@ -116,20 +118,22 @@ ARRIS_ALWAYS_INLINE L shift_right_unsigned(const L& v, int by) {
   return (L)((typename Wide<sizeof(L)>::Unsigned)v >> static_cast<std::uint64_t>(by));
 }
 
-/// 1.0 in the lanes where a > b, else 0.0, for finite values: from the sign of the difference, because compilers take
-/// comparisons that are combined apart, lane by lane.
+/// 1.0 in the lanes that `mask` is set in, else 0.0: by its bits, because selections that are combined are taken apart
+/// by compilers, lane by lane.
+template <class V, class Mask>
+ARRIS_ALWAYS_INLINE V ones(const Mask& mask) {
+  constexpr std::int64_t kOne = 0x3ff0000000000000;
+  return (V)((typename Wide<sizeof(V)>::Long)mask & kOne);
+}
+/// 1.0 in the lanes where a > b, else 0.0.
 template <class V, class W>
 ARRIS_ALWAYS_INLINE V where_above(const V& a, const W& b) {
-  typedef typename Wide<sizeof(V)>::Unsigned Bits;
-  constexpr std::uint64_t kOne = 0x3ff0000000000000U;
-  const V difference = b - a;
-  const Bits negative = (Bits)difference >> std::uint64_t{63};
-  return (V)((std::uint64_t{0} - negative) & kOne);
+  return ones<V>(a > b);
 }
 /// 1.0 where a <= b.
 template <class V, class W>
 ARRIS_ALWAYS_INLINE V where_at_most(const V& a, const W& b) {
-  return 1.0 - where_above(a, b);
+  return ones<V>(a <= b);
 }
 
 /// What the processor offers: 64 with AVX-512, 32 with AVX2, else 16. The environment's ARRIS_KERNEL_BYTES (16 or 32),

@@ -1,5 +1,5 @@
 #pragma once
-/// @file Contours and outline edges of segments for the queries of one bucket after the other; one runner per chunk.
+/// @file Contours and outline edges of segments for the queries of one bucket after the other; one runner per thread.
 
 #include <cstdint>
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace arris {
 
-/// Not thread-safe; make one per chunk.
+/// Not thread-safe; make one per thread.
 class SegmentContourRunner {
  public:
   explicit SegmentContourRunner(const SegmentTask& task) : task_(task), own_(task_, group_), joined_(task_, group_) {}

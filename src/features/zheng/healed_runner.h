@@ -16,7 +16,7 @@ namespace arris {
 /// Seams are healed: a point is a border only if it is alpha-exposed among its own supervoxel and those that continue
 /// its surface. Contacts are proposed by all points near a supervoxel that does not continue the surface, and by
 /// supervoxels that are no planes. What is proposed is judged on the points in a ball (seam_judge.h). Not thread-safe;
-/// make one per chunk.
+/// make one per thread.
 class HealedRunner {
  public:
   explicit HealedRunner(const ZhengTask& task);

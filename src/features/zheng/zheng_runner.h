@@ -1,5 +1,5 @@
 #pragma once
-/// @file Runs Zheng et al.'s method, literally, for the queries of one bucket after the other; one runner per chunk.
+/// @file Runs Zheng et al.'s method, literally, for the queries of one bucket after the other; one runner per thread.
 
 #include <cstdint>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace arris {
 
-/// Not thread-safe; make one per chunk.
+/// Not thread-safe; make one per thread.
 class ZhengRunner {
  public:
   explicit ZhengRunner(const ZhengTask& task) : task_(task) {}
