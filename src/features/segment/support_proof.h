@@ -34,13 +34,13 @@ class SupportProof {
   std::optional<Bound> bound(std::uint32_t slot) const;
 
  private:
+  class BadSlots;
   bool inside(std::uint32_t slot, double radius, const LatticeBox& covered) const {
     return radius < static_cast<double>(covered.depth(tree_.position(slot)));
   }
   /// Where to look next for neighbours that are not in sight.
   double farther(std::uint32_t slot, const LatticeBox& covered) const;
   double distance(std::uint32_t a, std::uint32_t b) const;
-  std::vector<std::uint8_t> with_bad_neighbours(const std::vector<std::uint8_t>& bad) const;
 
   const PointTree& tree_;
   const TileNeighbourhoods& points_;
