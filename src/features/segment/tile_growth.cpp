@@ -42,6 +42,19 @@ class Grower {
   TileGrowth run(const FrontierSink& frontier) {
     compute_rings();
     settle_unproven();
+    return grow(frontier);
+  }
+
+  std::uint64_t run_proven(const FrontierSink& frontier) {
+    compute_rings();
+    for (const std::uint32_t slot : SupportProof(tree_, points_, rings()).unproven(is_query_, covered_))
+      is_query_[slot] = 0;
+    grow(frontier);
+    return static_cast<std::uint64_t>(std::count(is_query_.begin(), is_query_.end(), 1));
+  }
+
+ private:
+  TileGrowth grow(const FrontierSink& frontier) {
     if (!parameters_.published && !intensities_.empty()) {
       intensities_ = smoothed_intensities(points_, intensities_);
       likeness_.use_intensities(intensities_);
@@ -53,7 +66,6 @@ class Grower {
     return std::move(growth_);
   }
 
- private:
   /// Some neighbours are needed, not all: those of queries. Two more rings around them, or one.
   int rings() const { return parameters_.published ? 1 : 2; }
 
@@ -291,6 +303,12 @@ TileGrowth grow_tile(const TilePoints& tile, std::span<const std::uint8_t> inten
                      std::optional<std::span<const PlacedQuery>> queries) {
   if (tile.positions.empty()) return {};
   return Grower(tile, intensities, lattice, parameters, queries).run(frontier);
+}
+
+std::uint64_t grow_proven(const TilePoints& tile, std::span<const std::uint8_t> intensities, const Lattice& lattice,
+                          const SegmentParameters& parameters, const FrontierSink& frontier) {
+  if (tile.positions.empty()) return 0;
+  return Grower(tile, intensities, lattice, parameters, std::nullopt).run_proven(frontier);
 }
 
 double growth_bytes_per_point(const SegmentParameters& parameters) {

@@ -68,6 +68,11 @@ TileGrowth grow_tile(const TilePoints& tile, std::span<const std::uint8_t> inten
                      const SegmentParameters& parameters, const FrontierSink& frontier,
                      std::optional<std::span<const PlacedQuery>> queries = std::nullopt);
 
+/// The frontier of the points of tile.core whose support lies in tile.covered, of these alone. @return how many they
+/// are.
+std::uint64_t grow_proven(const TilePoints& tile, std::span<const std::uint8_t> intensities, const Lattice& lattice,
+                          const SegmentParameters& parameters, const FrontierSink& frontier);
+
 /// Bytes beyond the tile itself, for predictions.
 double growth_bytes_per_point(const SegmentParameters& parameters);
 extern const double kGrowthBytesPerThread;
