@@ -6,6 +6,36 @@
 #include "tiling/tile_store.h"
 
 namespace arris::tiling {
+namespace {
+
+/// More runs than these are no order to speak of.
+constexpr std::size_t kMostRuns = 256;
+
+/// Sorts; quickly what is a few sorted runs one after the other, as the points of several tiles are.
+template <class Less>
+void sort_runs(std::vector<std::uint32_t>& items, Less&& less) {
+  using Place = std::vector<std::uint32_t>::iterator;
+  std::vector<Place> ends;  // Of the runs.
+  for (Place end = items.begin(); end != items.end();) {
+    end = std::is_sorted_until(end, items.end(), less);
+    ends.push_back(end);
+    if (ends.size() > kMostRuns) {
+      std::sort(items.begin(), items.end(), less);
+      return;
+    }
+  }
+  while (ends.size() > 1) {
+    std::vector<Place> merged;
+    for (std::size_t i = 0; i < ends.size(); i += 2) {
+      const std::size_t last = std::min(i + 1, ends.size() - 1);
+      std::inplace_merge(i == 0 ? items.begin() : ends[i - 1], ends[i], ends[last], less);
+      merged.push_back(ends[last]);
+    }
+    ends = std::move(merged);
+  }
+}
+
+}  // namespace
 
 void fold_sorted(std::vector<LatticePoint>&& positions, std::vector<std::uint64_t>&& ids, TilePoints& tile) {
   tile.duplicates.clear();
@@ -28,7 +58,7 @@ void fold_sorted(std::vector<LatticePoint>&& positions, std::vector<std::uint64_
 void fold_duplicates(std::vector<LatticePoint>&& positions, std::vector<std::uint64_t>&& ids, TilePoints& tile) {
   std::vector<std::uint32_t> order(positions.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+  sort_runs(order, [&](std::uint32_t a, std::uint32_t b) {
     if (positions[a] != positions[b]) return z_order_less(positions[a], positions[b]);
     return ids[a] < ids[b];
   });

@@ -218,7 +218,8 @@ class Grower {
   }
 
   void number_components() {
-    component_.resize(tree_.size());
+    component_.assign(tree_.size(), 0);
+    growth_.members.reserve(static_cast<std::size_t>(std::count(numbered_.begin(), numbered_.end(), 1)));
     for (std::uint32_t slot = 0; slot < tree_.size(); ++slot) {
       if (!numbered_[slot]) continue;
       const std::uint32_t root = sets_.find(slot);  // The smallest of the set: numbered first, if it is numbered.
@@ -292,7 +293,7 @@ class Grower {
   std::vector<std::uint8_t> numbered_;   ///< Has a link or makes an offer.
   std::vector<std::uint8_t> among_own_;  ///< Every neighbour was seen to be in the same set.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> offers_;
-  std::vector<std::uint32_t> component_;
+  PageVector<std::uint32_t> component_;
   TileGrowth growth_;
 };
 

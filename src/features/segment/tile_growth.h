@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/lattice.h"
+#include "core/pages.h"
 #include "core/tile_points.h"
 #include "features/contour/tile_contours.h"
 #include "features/segment/segment_parameters.h"
@@ -40,7 +41,7 @@ struct TileGrowth {
     std::uint32_t component = 0;
   };
 
-  std::vector<Member> members;       ///< Queries.
+  PageVector<Member> members;        ///< Queries.
   std::vector<Member> touched;       ///< Growing points that are no queries, linked with a query.
   std::vector<Offer> offers;         ///< To any points.
   std::vector<std::uint32_t> sizes;  ///< Queries in each component.
