@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <numeric>
 #include <utility>
-#include <vector>
+
+#include "core/pages.h"
 
 namespace arris {
 
@@ -37,7 +38,7 @@ class DisjointSets {
   }
 
  private:
-  std::vector<std::uint32_t> parent_;
+  PageVector<std::uint32_t> parent_;
 };
 
 }  // namespace arris

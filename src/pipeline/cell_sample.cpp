@@ -58,6 +58,13 @@ void CellSample::add(const LatticePoint& p, std::uint64_t id) {
   last_->ids.push_back(id);
 }
 
+std::vector<CellSample::View> CellSample::cells() const {
+  std::vector<View> cells;
+  for (const auto& [place, cell] : cells_)
+    if (cell.positions.size() <= kMostCellPoints) cells.push_back({box_of(place), &cell});
+  return cells;
+}
+
 void draw_cells(io::InputSet& inputs, const tiling::Survey& survey, std::span<CellSample> samples,
                 ProgressSink& progress, const CancelToken& cancel) {
   tiling::for_each_mapped_batch(inputs, survey.lattice, "noise", progress, cancel,

@@ -29,13 +29,13 @@ class CellSample {
   CellSample(const tiling::Survey& survey, double side_spacings, double points);
 
   void add(const LatticePoint& p, std::uint64_t id);
-  /// Calls use(box, cell) for the cells, but for those of more than kMostCellPoints: one heap of points must not take
-  /// the memory.
-  template <class Use>
-  void for_each(Use&& use) const {
-    for (const auto& [place, cell] : cells_)
-      if (cell.positions.size() <= kMostCellPoints) use(box_of(place), cell);
-  }
+  struct View {
+    LatticeBox box;
+    const Cell* points;
+  };
+  /// The cells in the order of their places, but for those of more than kMostCellPoints: one heap of points must not
+  /// take the memory.
+  std::vector<View> cells() const;
 
  private:
   static constexpr std::size_t kMostCellPoints = 200'000;

@@ -1,7 +1,9 @@
 #include "pipeline/frontier_estimate.h"
 
 #include <algorithm>
+#include <vector>
 
+#include "core/parallel.h"
 #include "features/segment/tile_growth.h"
 #include "merge/frontier_coding.h"
 #include "tiling/tile_store.h"
@@ -19,6 +21,28 @@ constexpr double kUsualShare = 0.3;
 /// Rather too much than too little: cells differ.
 constexpr double kMargin = 1.05;
 
+/// What a cell tells.
+struct CellFrontier {
+  std::uint64_t points = 0;
+  std::uint64_t proven = 0;  ///< Points whose support lies in the cell.
+  std::uint64_t bytes = 0;   ///< Of the frontier of these.
+};
+
+CellFrontier frontier_of(const CellSample::View& cell, std::span<const std::uint8_t> intensities,
+                         const Lattice& lattice, const SegmentParameters& parameters) {
+  TilePoints points;
+  tiling::fold_duplicates(std::vector(cell.points->positions), std::vector(cell.points->ids), points);
+  points.core = points.covered = cell.box;
+  std::vector<std::uint8_t> of_entry(intensities.empty() ? 0 : points.ids.size());
+  for (std::size_t i = 0; i < of_entry.size(); ++i) of_entry[i] = intensities[points.ids[i]];
+  std::vector<std::byte> bytes;
+  const std::uint64_t proven =
+      grow_proven(points, of_entry, lattice, parameters, [&](std::span<const std::uint32_t> records) {
+        merge::encode_frontier(records, 4 + parameters.most_neighbours(), bytes);
+      });
+  return {points.ids.size(), proven, bytes.size()};
+}
+
 }  // namespace
 
 double most_frontier_bytes_per_point(const SegmentParameters& parameters) {
@@ -31,28 +55,21 @@ double frontier_sample(std::uint64_t points) {
 
 double frontier_bytes_per_point(const CellSample& sample, std::span<const std::uint8_t> intensities,
                                 const Lattice& lattice, const SegmentParameters& parameters) {
-  const std::size_t stride = 4 + parameters.most_neighbours();
+  const std::vector<CellSample::View> cells = sample.cells();
+  std::vector<CellFrontier> found(cells.size());
+  parallel_for_chunks(cells.size(), 1, [&](std::size_t i, std::size_t) {
+    found[i] = frontier_of(cells[i], intensities, lattice, parameters);
+  });
   std::uint64_t queries = 0, points_of_cells = 0;
   double bytes_of_cells = 0.0;
-  std::vector<std::byte> bytes;
-  sample.for_each([&](const LatticeBox& box, const CellSample::Cell& cell) {
-    TilePoints points;
-    tiling::fold_duplicates(std::vector(cell.positions), std::vector(cell.ids), points);
-    points.core = points.covered = box;
-    std::vector<std::uint8_t> of_entry(intensities.empty() ? 0 : points.ids.size());
-    for (std::size_t i = 0; i < of_entry.size(); ++i) of_entry[i] = intensities[points.ids[i]];
-    bytes.clear();
-    const TileGrowth grown =
-        grow_tile(points, of_entry, lattice, parameters,
-                  [&](std::span<const std::uint32_t> records) { merge::encode_frontier(records, stride, bytes); });
+  for (const CellFrontier& cell : found) {
+    if (cell.proven < kLeastCellQueries) continue;
+    queries += cell.proven;
+    points_of_cells += cell.points;
     // Where points are dense, more of them are proven: each cell counts by its points.
-    const std::uint64_t proven = points.ids.size() - grown.unproven.size();
-    if (proven < kLeastCellQueries) return;
-    queries += proven;
-    points_of_cells += points.ids.size();
     bytes_of_cells +=
-        static_cast<double>(bytes.size()) * static_cast<double>(points.ids.size()) / static_cast<double>(proven);
-  });
+        static_cast<double>(cell.bytes) * static_cast<double>(cell.points) / static_cast<double>(cell.proven);
+  }
   if (queries < kLeastQueries) return kUsualShare * most_frontier_bytes_per_point(parameters);
   return kMargin * bytes_of_cells / static_cast<double>(points_of_cells);
 }

@@ -1,15 +1,41 @@
 #include <algorithm>
 #include <numeric>
-#include <optional>
-#include <span>
-#include <utility>
 
 #include "tiling/fold_sorted.h"
 #include "tiling/morton.h"
 #include "tiling/tile_store.h"
-#include "tiling/z_order_key.h"
 
 namespace arris::tiling {
+namespace {
+
+/// More runs than these are no order to speak of.
+constexpr std::size_t kMostRuns = 256;
+
+/// Sorts; quickly what is a few sorted runs one after the other, as the points of several tiles are.
+template <class Less>
+void sort_runs(std::vector<std::uint32_t>& items, Less&& less) {
+  using Place = std::vector<std::uint32_t>::iterator;
+  std::vector<Place> ends;  // Of the runs.
+  for (Place end = items.begin(); end != items.end();) {
+    end = std::is_sorted_until(end, items.end(), less);
+    ends.push_back(end);
+    if (ends.size() > kMostRuns) {
+      std::sort(items.begin(), items.end(), less);
+      return;
+    }
+  }
+  while (ends.size() > 1) {
+    std::vector<Place> merged;
+    for (std::size_t i = 0; i < ends.size(); i += 2) {
+      const std::size_t last = std::min(i + 1, ends.size() - 1);
+      std::inplace_merge(i == 0 ? items.begin() : ends[i - 1], ends[i], ends[last], less);
+      merged.push_back(ends[last]);
+    }
+    ends = std::move(merged);
+  }
+}
+
+}  // namespace
 
 void fold_sorted(std::vector<LatticePoint>&& positions, std::vector<std::uint64_t>&& ids, TilePoints& tile) {
   tile.duplicates.clear();
@@ -29,37 +55,13 @@ void fold_sorted(std::vector<LatticePoint>&& positions, std::vector<std::uint64_
   tile.ids = std::move(ids);
 }
 
-namespace {
-
-/// The order of (position, id), positions in Z-order.
-std::vector<std::uint32_t> z_order(std::span<const LatticePoint> positions, std::span<const std::uint64_t> ids) {
-  std::vector<std::uint32_t> order(positions.size());
-  LatticePoint least, most;
-  if (!positions.empty()) least = most = positions[0];
-  for (const LatticePoint& p : positions) {
-    least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
-    most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
-  }
-  if (const std::optional<ZOrderKey> key_of = ZOrderKey::for_range(least, most)) {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed(positions.size());
-    for (std::uint32_t i = 0; i < keyed.size(); ++i) keyed[i] = {(*key_of)(positions[i]), i};
-    std::ranges::sort(keyed, [&](const auto& a, const auto& b) {
-      return a.first != b.first ? a.first < b.first : ids[a.second] < ids[b.second];
-    });
-    std::ranges::transform(keyed, order.begin(), [](const auto& of) { return of.second; });
-  } else {
-    std::iota(order.begin(), order.end(), 0U);
-    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-      return positions[a] != positions[b] ? z_order_less(positions[a], positions[b]) : ids[a] < ids[b];
-    });
-  }
-  return order;
-}
-
-}  // namespace
-
 void fold_duplicates(std::vector<LatticePoint>&& positions, std::vector<std::uint64_t>&& ids, TilePoints& tile) {
-  const std::vector<std::uint32_t> order = z_order(positions, ids);
+  std::vector<std::uint32_t> order(positions.size());
+  std::iota(order.begin(), order.end(), 0U);
+  sort_runs(order, [&](std::uint32_t a, std::uint32_t b) {
+    if (positions[a] != positions[b]) return z_order_less(positions[a], positions[b]);
+    return ids[a] < ids[b];
+  });
   std::vector<LatticePoint> sorted_positions(positions.size());
   std::vector<std::uint64_t> sorted_ids(ids.size());
   for (std::size_t i = 0; i < order.size(); ++i) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "features/segment/median_plane.h"
+#include "features/segment/selection_network.h"
 
 namespace arris {
 namespace {
@@ -34,27 +35,11 @@ std::vector<std::array<std::uint8_t, 3>> spread_triples(std::size_t n) {
   return triples;
 }
 
-/// Batcher's merge exchange (Knuth, The Art of Computer Programming 3, algorithm 5.2.2 M), for any n.
-std::vector<std::array<std::uint8_t, 2>> merge_exchange(std::size_t n) {
-  std::vector<std::array<std::uint8_t, 2>> pairs;
-  for (std::size_t p = 1; p < n; p *= 2) {
-    for (std::size_t k = p; k >= 1; k /= 2) {
-      for (std::size_t j = k % p; j + k < n; j += 2 * k) {
-        for (std::size_t i = j; i < std::min(j + k, n - k); ++i) {
-          if (i / (2 * p) == (i + k) / (2 * p))
-            pairs.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i + k)});
-        }
-      }
-    }
-  }
-  return pairs;
-}
-
 }  // namespace
 
 MedianPlan::MedianPlan(std::size_t neighbours)
     : triples(triples_of(neighbours) <= kMostTriples ? all_triples(neighbours) : spread_triples(neighbours)),
-      exchanges(merge_exchange(neighbours)),
+      exchanges(selection_network(neighbours, neighbours / 2)),
       median(neighbours / 2) {}
 
 }  // namespace arris

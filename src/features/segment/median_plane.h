@@ -23,7 +23,7 @@ struct MedianPlan {
   explicit MedianPlan(std::size_t neighbours);
 
   std::vector<std::array<std::uint8_t, 3>> triples;
-  std::vector<std::array<std::uint8_t, 2>> exchanges;  ///< Batcher's merge exchange: sorts n values.
+  std::vector<std::array<std::uint8_t, 2>> exchanges;  ///< Bring the median to its place.
   std::size_t median = 0;                              ///< Index of the upper median of n sorted values.
 };
 

@@ -16,6 +16,11 @@ class NoiseEstimate {
   /// All points of the scan in one box. Points whose neighbours may lie outside of it are not looked at. O(n log n).
   void add(std::span<const LatticePoint> points, const LatticeBox& box);
 
+  /// What another one has looked at.
+  void add(const NoiseEstimate& other) {
+    samples_.insert(samples_.end(), other.samples_.begin(), other.samples_.end());
+  }
+
   /// From the first quartile (edges and vegetation aside) of the densest quarter: there noise counts, and there it is
   /// most of what the planes leave. 0 without any.
   double noise() const;

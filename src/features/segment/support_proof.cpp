@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/parallel.h"
 
 namespace arris {
 namespace {
 
-constexpr std::size_t kGrain = 4096;
+/// Slots that are looked at together, which lie close together.
+constexpr std::size_t kGrain = 256;
 /// Rounding of a distance must not make a ball too small.
 constexpr double kRound = 1.0 + 1e-12;
 /// Where too few neighbours are in sight, the next look goes this many times as far.
@@ -28,31 +30,79 @@ SupportProof::Depth SupportProof::depth_around(std::uint32_t slot, double radius
   return [this, slot, radius](std::uint32_t other) { return radius - distance(slot, other); };
 }
 
-/// Those that are bad, or have a neighbour that is.
-std::vector<std::uint8_t> SupportProof::with_bad_neighbours(const std::vector<std::uint8_t>& bad) const {
-  std::vector<std::uint8_t> wider = bad;
-  parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      for (const std::uint32_t neighbour : points_.neighbours(static_cast<std::uint32_t>(i)))
-        wider[i] |= bad[neighbour];
-    }
-  });
-  return wider;
-}
+/// Slots whose support is not whole, with what tells of most others that no neighbour of theirs is among them.
+class SupportProof::BadSlots {
+ public:
+  BadSlots(const SupportProof& proof, const LatticeBox& covered)
+      : proof_(proof), covered_(covered), bad_(proof.tree_.size()), blocks_((bad_.size() + kGrain - 1) / kGrain) {
+    for_each_block([&](std::size_t block, std::uint32_t slot) {
+      const TileNeighbourhoods& points = proof_.points_;
+      if (points.state(slot) == ShapeState::kUnasked) return;
+      const double depth = depth_of(slot), reach = points.reach_of(slot);
+      blocks_[block].shallowest = std::min(blocks_[block].shallowest, depth - reach);
+      if (!(reach < depth)) mark(block, slot, depth);
+    });
+  }
+
+  bool any() const { return deepest() > kNone; }
+  bool operator[](std::uint32_t slot) const { return bad_[slot] != 0; }
+
+  /// Those with a bad neighbour are bad too. A neighbour is as deep in what is covered as the point is, less the
+  /// distance: where that is deeper than any that is bad, there is nothing to look for.
+  void widen() {
+    const double deepest_before = deepest();
+    const std::vector<std::uint8_t> before = bad_;
+    for_each_block(
+        [&](std::size_t block, std::uint32_t slot) {
+          if (before[slot] != 0) return;
+          for (const std::uint32_t neighbour : proof_.points_.neighbours(slot)) {
+            if (before[neighbour] == 0) continue;
+            mark(block, slot, depth_of(slot));
+            return;
+          }
+        },
+        deepest_before);
+  }
+
+ private:
+  static constexpr double kNone = -1.0;
+  struct Block {
+    double shallowest = std::numeric_limits<double>::infinity();  ///< No neighbour is less deep.
+    double deepest = kNone;                                       ///< Of those that are bad.
+  };
+
+  double depth_of(std::uint32_t slot) const { return static_cast<double>(covered_.depth(proof_.tree_.position(slot))); }
+  void mark(std::size_t block, std::uint32_t slot, double depth) {
+    bad_[slot] = 1;
+    blocks_[block].deepest = std::max(blocks_[block].deepest, depth);
+  }
+  double deepest() const {
+    double most = kNone;
+    for (const Block& block : blocks_) most = std::max(most, block.deepest);
+    return most;
+  }
+  /// Calls use(block, slot) in blocks that have neighbours at `depth` or less deep.
+  template <class Use>
+  void for_each_block(Use&& use, double depth = std::numeric_limits<double>::infinity()) {
+    parallel_for_chunks(bad_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+      const std::size_t block = first / kGrain;
+      if (blocks_[block].shallowest > depth) return;
+      for (std::size_t slot = first; slot < last; ++slot) use(block, static_cast<std::uint32_t>(slot));
+    });
+  }
+
+  const SupportProof& proof_;
+  const LatticeBox& covered_;
+  std::vector<std::uint8_t> bad_;
+  std::vector<Block> blocks_;
+};
 
 std::vector<std::uint32_t> SupportProof::unproven(const std::vector<std::uint8_t>& is_query,
                                                   const LatticeBox& covered) const {
-  std::vector<std::uint8_t> bad(tree_.size());
-  parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const auto slot = static_cast<std::uint32_t>(i);
-      bad[i] = points_.state(slot) != ShapeState::kUnasked &&
-               points_.reach_of(slot) >= static_cast<double>(covered.depth(tree_.position(slot)));
-    }
-  });
+  BadSlots bad(*this, covered);
   std::vector<std::uint32_t> slots;
-  if (std::find(bad.begin(), bad.end(), 1) == bad.end()) return slots;
-  for (int ring = 0; ring < rings_; ++ring) bad = with_bad_neighbours(bad);
+  if (!bad.any()) return slots;
+  for (int ring = 0; ring < rings_; ++ring) bad.widen();
   for (std::uint32_t slot = 0; slot < tree_.size(); ++slot)
     if (is_query[slot] && bad[slot]) slots.push_back(slot);
   return slots;
@@ -79,7 +129,7 @@ double SupportProof::reach(std::uint32_t slot, const Depth& depth) const {
     for (const Ball& ball : ring) {
       for (const std::uint32_t neighbour : points_.neighbours(ball.slot)) {
         const double bound = std::min(most, distance(ball.slot, neighbour) + ball.radius);
-        const bool bounded = points_.wanted(neighbour) <= points_.neighbours(ball.slot).size();
+        const bool bounded = points_.wanted(neighbour) <= points_.count(ball.slot);
         const double radius = bounded ? std::min(points_.reach_of(neighbour), bound) : points_.reach_of(neighbour);
         next.push_back({neighbour, radius});
         double look = radius;

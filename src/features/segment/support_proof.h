@@ -40,8 +40,8 @@ class SupportProof {
   std::optional<Bound> bound(std::uint32_t slot) const;
 
  private:
+  class BadSlots;
   double distance(std::uint32_t a, std::uint32_t b) const;
-  std::vector<std::uint8_t> with_bad_neighbours(const std::vector<std::uint8_t>& bad) const;
 
   const PointTree& tree_;
   const TileNeighbourhoods& points_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <unordered_map>
 
@@ -17,6 +18,8 @@ namespace arris {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
+
+constexpr std::uint8_t kNoRing = 255;
 
 /// Later sums of distances round differently.
 constexpr double kRoundMore = 1.0 + 1e-8;
@@ -39,6 +42,19 @@ class Grower {
   TileGrowth run(const FrontierSink& frontier) {
     compute_rings();
     settle_unproven();
+    return grow(frontier);
+  }
+
+  std::uint64_t run_proven(const FrontierSink& frontier) {
+    compute_rings();
+    for (const std::uint32_t slot : SupportProof(tree_, points_, rings()).unproven(is_query_, covered_))
+      is_query_[slot] = 0;
+    grow(frontier);
+    return static_cast<std::uint64_t>(std::count(is_query_.begin(), is_query_.end(), 1));
+  }
+
+ private:
+  TileGrowth grow(const FrontierSink& frontier) {
     if (!parameters_.published && !intensities_.empty()) {
       intensities_ = smoothed_intensities(points_, intensities_);
       likeness_.use_intensities(intensities_);
@@ -50,7 +66,6 @@ class Grower {
     return std::move(growth_);
   }
 
- private:
   /// Some neighbours are needed, not all: those of queries. Two more rings around them, or one.
   int rings() const { return parameters_.published ? 1 : 2; }
 
@@ -83,21 +98,37 @@ class Grower {
   }
 
   void compute_rings() {
-    std::vector<std::uint8_t> wanted = is_query_;
-    points_.compute(wanted);
-    for (int ring = 0; ring < rings(); ++ring) {
-      std::vector<std::uint8_t> next = wanted;
+    ring_.resize(tree_.size());
+    for (std::uint32_t slot = 0; slot < tree_.size(); ++slot) ring_[slot] = is_query_[slot] ? 0 : kNoRing;
+    points_.compute(is_query_);
+    for (std::uint8_t ring = 0; ring < rings(); ++ring)
+      if (mark_neighbours(ring)) points_.compute(wanted_of(ring + 1));
+  }
+
+  /// Those of a ring that are in none get into the next; false if there are none.
+  bool mark_neighbours(std::uint8_t ring) {
+    std::atomic<bool> any{false};
+    parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
       bool more = false;
-      for (std::uint32_t slot = 0; slot < tree_.size(); ++slot) {
-        if (!wanted[slot]) continue;
-        for (const std::uint32_t neighbour : points_.neighbours(slot)) {
-          more |= points_.state(neighbour) == ShapeState::kUnasked;
-          next[neighbour] = 1;
+      for (std::size_t i = first; i < last; ++i) {
+        if (std::atomic_ref(ring_[i]).load(std::memory_order_relaxed) != ring) continue;
+        for (const std::uint32_t neighbour : points_.neighbours(static_cast<std::uint32_t>(i))) {
+          // Whoever marks one, the mark is the same.
+          const std::atomic_ref mark(ring_[neighbour]);
+          if (mark.load(std::memory_order_relaxed) != kNoRing) continue;
+          mark.store(ring + 1, std::memory_order_relaxed);
+          more = true;
         }
       }
-      wanted = std::move(next);
-      if (more) points_.compute(wanted);
-    }
+      if (more) any = true;
+    });
+    return any;
+  }
+
+  std::vector<std::uint8_t> wanted_of(std::uint8_t ring) const {
+    std::vector<std::uint8_t> wanted(ring_.size());
+    for (std::size_t slot = 0; slot < ring_.size(); ++slot) wanted[slot] = ring_[slot] == ring;
+    return wanted;
   }
 
   /// Queries whose support is not whole are none from here on.
@@ -138,15 +169,11 @@ class Grower {
 
   /// Growing is asked of queries and their neighbours only.
   void choose_growing() {
-    std::vector<std::uint8_t> wanted = is_query_;
-    for_each_query([&](std::uint32_t slot) {
-      for (const std::uint32_t neighbour : points_.neighbours(slot)) wanted[neighbour] = 1;
-    });
     grows_.resize(tree_.size());
     parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         const auto slot = static_cast<std::uint32_t>(i);
-        if (!wanted[slot] || points_.state(slot) != ShapeState::kShaped) continue;
+        if (ring_[slot] > 1 || points_.state(slot) != ShapeState::kShaped) continue;
         if (!(points_.shape(slot).variation < static_cast<float>(parameters_.curvature))) continue;
         grows_[slot] = parameters_.published || agrees(slot);
       }
@@ -156,32 +183,42 @@ class Grower {
   void find_links() {
     sets_ = DisjointSets(tree_.size());
     numbered_.resize(tree_.size());
+    among_own_.resize(tree_.size());
     for_each_query([&](std::uint32_t slot) {
       if (points_.state(slot) != ShapeState::kShaped) {
         ++growth_.isolated;
         return;
       }
       std::uint32_t root = sets_.find(slot);
+      bool all_linked = true;
       for (const std::uint32_t neighbour : points_.neighbours(slot)) {
         const bool both = grows_[slot] && grows_[neighbour];
         if (both && sets_.find(neighbour) == root) continue;  // Most are linked already.
-        if (points_.state(neighbour) != ShapeState::kShaped || !(grows_[slot] || grows_[neighbour])) continue;
-        if (!likeness_.alike(slot, neighbour)) continue;
+        if (points_.state(neighbour) != ShapeState::kShaped || !(grows_[slot] || grows_[neighbour]) ||
+            !likeness_.alike(slot, neighbour)) {
+          all_linked = false;
+          continue;
+        }
         if (both) {
           numbered_[slot] = numbered_[neighbour] = 1;
           sets_.join(slot, neighbour);
           root = sets_.find(slot);
-        } else if (parameters_.published) {
+          continue;
+        }
+        all_linked = false;
+        if (parameters_.published) {
           const auto [joins, via] = grows_[slot] ? std::pair(neighbour, slot) : std::pair(slot, neighbour);
           numbered_[via] = 1;
           offers_.push_back({joins, via});
         }
       }
+      among_own_[slot] = all_linked;
     });
   }
 
   void number_components() {
-    component_.resize(tree_.size());
+    component_.assign(tree_.size(), 0);
+    growth_.members.reserve(static_cast<std::size_t>(std::count(numbered_.begin(), numbered_.end(), 1)));
     for (std::uint32_t slot = 0; slot < tree_.size(); ++slot) {
       if (!numbered_[slot]) continue;
       const std::uint32_t root = sets_.find(slot);  // The smallest of the set: numbered first, if it is numbered.
@@ -207,15 +244,16 @@ class Grower {
   }
 
   std::uint32_t disc_of(std::uint32_t slot) const {
-    const auto neighbours = points_.neighbours(slot);
-    if (neighbours.empty()) return 0;
-    const std::uint64_t d2 = squared_distance(tree_.position(slot), tree_.position(neighbours.back()));
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(d2 / neighbours.size(), 0xffffffffU));
+    const std::size_t count = points_.count(slot);
+    if (count == 0) return 0;
+    const std::uint64_t d2 = squared_distance(tree_.position(slot), tree_.position(points_.last_neighbour(slot)));
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(d2 / count, 0xffffffffU));
   }
 
   bool inside_component(std::uint32_t slot) const {
     const std::uint32_t component = component_[slot];
     if (component == 0 || growth_.sizes[component - 1] < parameters_.least_component()) return false;
+    if (among_own_[slot]) return true;
     for (const std::uint32_t neighbour : points_.neighbours(slot))
       if (component_[neighbour] != component) return false;
     return true;
@@ -245,14 +283,16 @@ class Grower {
   PointTree tree_;
   TileNeighbourhoods points_;
   std::vector<std::uint8_t> is_query_;
+  std::vector<std::uint8_t> ring_;  ///< 0: asked as a query, 1: a neighbour of one, and so on.
   std::vector<std::pair<std::uint32_t, std::int64_t>> reach_;  ///< Slot and reach of listed queries.
   std::vector<std::uint8_t> intensities_;                      ///< Per slot.
   Likeness likeness_;
   std::vector<std::uint8_t> grows_;
   DisjointSets sets_;
-  std::vector<std::uint8_t> numbered_;  ///< Has a link or makes an offer.
+  std::vector<std::uint8_t> numbered_;   ///< Has a link or makes an offer.
+  std::vector<std::uint8_t> among_own_;  ///< Every neighbour was seen to be in the same set.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> offers_;
-  std::vector<std::uint32_t> component_;
+  PageVector<std::uint32_t> component_;
   TileGrowth growth_;
 };
 
@@ -265,10 +305,18 @@ TileGrowth grow_tile(const TilePoints& tile, std::span<const std::uint8_t> inten
   return Grower(tile, intensities, lattice, parameters, queries).run(frontier);
 }
 
+std::uint64_t grow_proven(const TilePoints& tile, std::span<const std::uint8_t> intensities, const Lattice& lattice,
+                          const SegmentParameters& parameters, const FrontierSink& frontier) {
+  if (tile.positions.empty()) return 0;
+  return Grower(tile, intensities, lattice, parameters, std::nullopt).run_proven(frontier);
+}
+
 double growth_bytes_per_point(const SegmentParameters& parameters) {
-  // Tree 27, shapes, counts and states 19, flags and intensities 9, sets and components 8, members 16; neighbours.
+  // Tree 27, shapes, counts and states 19, flags and intensities 9, sets and components 8, members 16; neighbours, as
+  // of points that fill space (of those on surfaces 2.2).
+  constexpr double kNeighbourBytes = 2.6;
   const double k = static_cast<double>(parameters.most_neighbours());
-  return 27.0 + 19.0 + 9.0 + 8.0 + 16.0 + 4.0 * k;
+  return 27.0 + 19.0 + 9.0 + 8.0 + 16.0 + kNeighbourBytes * k;
 }
 const double kGrowthBytesPerThread = 3.0 * 1024 * 1024;
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/lattice.h"
+#include "core/pages.h"
 #include "core/tile_points.h"
 #include "features/contour/tile_contours.h"
 #include "features/segment/segment_parameters.h"
@@ -40,7 +41,7 @@ struct TileGrowth {
     std::uint32_t component = 0;
   };
 
-  std::vector<Member> members;       ///< Queries.
+  PageVector<Member> members;        ///< Queries.
   std::vector<Member> touched;       ///< Growing points that are no queries, linked with a query.
   std::vector<Offer> offers;         ///< To any points.
   std::vector<std::uint32_t> sizes;  ///< Queries in each component.
@@ -67,6 +68,11 @@ using FrontierSink = std::function<void(std::span<const std::uint32_t> records)>
 TileGrowth grow_tile(const TilePoints& tile, std::span<const std::uint8_t> intensities, const Lattice& lattice,
                      const SegmentParameters& parameters, const FrontierSink& frontier,
                      std::optional<std::span<const PlacedQuery>> queries = std::nullopt);
+
+/// The frontier of the points of tile.core whose support lies in tile.covered, of these alone. @return how many they
+/// are.
+std::uint64_t grow_proven(const TilePoints& tile, std::span<const std::uint8_t> intensities, const Lattice& lattice,
+                          const SegmentParameters& parameters, const FrontierSink& frontier);
 
 /// Bytes beyond the tile itself, for predictions.
 double growth_bytes_per_point(const SegmentParameters& parameters);

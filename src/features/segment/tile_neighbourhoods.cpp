@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "core/parallel.h"
@@ -18,7 +19,8 @@ constexpr std::size_t kLeastNeighbours = 3;
 /// One per chunk of buckets; writes the rows of its own slots only.
 class TileNeighbourhoods::Runner {
  public:
-  explicit Runner(TileNeighbourhoods& all) : all_(all), expected_(all.rule_.least()), batches_(all.weights_) {}
+  explicit Runner(TileNeighbourhoods& all)
+      : all_(all), rows_(all.rows_), expected_(all.rule_.least()), batches_(all.weights_) {}
 
   /// What one group wanted at most is looked for around the next: few queries then need a second search, and what is
   /// found beyond what the rule wants is cut off.
@@ -51,8 +53,7 @@ class TileNeighbourhoods::Runner {
     });
   }
   void take(std::uint32_t slot, const Neighbours& found, std::size_t count) {
-    all_.counts_[slot] = static_cast<std::uint8_t>(count);
-    std::copy_n(found.slot.begin(), count, all_.slots_.get() + slot * all_.stride_);
+    rows_.put(slot, std::span(found.slot).first(count));
     if (count < kLeastNeighbours) {
       all_.states_[slot] = ShapeState::kIsolated;
     } else {
@@ -65,6 +66,7 @@ class TileNeighbourhoods::Runner {
   }
 
   TileNeighbourhoods& all_;
+  NeighbourRows::Writer rows_;
   /// By the number of neighbours that they look for.
   std::array<std::unique_ptr<NeighbourSearch>, kMostNeighbours + 1> searches_;
   std::array<std::vector<std::uint32_t>, kMostNeighbours + 1> more_;
@@ -76,11 +78,9 @@ TileNeighbourhoods::TileNeighbourhoods(const PointTree& tree, const Lattice& lat
                                        const SegmentParameters& parameters)
     : tree_(tree),
       rule_(neighbour_rule(parameters, lattice.step)),
-      stride_(rule_.most()),
       reach_steps_(parameters.reach() / lattice.step),
       weights_{parameters.inlier_distance / lattice.step, parameters.published},
-      slots_(std::make_unique_for_overwrite<std::uint32_t[]>(tree.size() * stride_)),
-      counts_(tree.size()),
+      rows_(tree.size(), rule_.most()),
       wanted_(tree.size()),
       shapes_(tree.size()),
       states_(tree.size(), ShapeState::kUnasked) {}
@@ -107,7 +107,7 @@ SearchLimits TileNeighbourhoods::limits(std::size_t k) const {
 
 double TileNeighbourhoods::reach_of(std::uint32_t slot) const {
   if (!full(slot)) return reach_steps_;
-  return distance(slot, neighbours(slot).back());
+  return distance(slot, last_neighbour(slot));
 }
 
 double TileNeighbourhoods::distance(std::uint32_t a, std::uint32_t b) const {

@@ -2,7 +2,6 @@
 /// @file Neighbours, normals and curvatures of the points of a tile, where they are asked for.
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,14 +9,15 @@
 #include "core/lattice.h"
 #include "features/neighbourhood/neighbour_search.h"
 #include "features/neighbourhood/point_tree.h"
+#include "features/segment/neighbour_rows.h"
 #include "features/segment/robust_plane.h"
 #include "features/segment/segment_parameters.h"
 
 namespace arris {
 
 struct PointShape {
-  float nx = 0.0F, ny = 0.0F, nz = 0.0F;  ///< Unit normal, sign free.
-  float variation = 0.0F;                 ///< sigma_p.
+  float nx, ny, nz;  ///< Unit normal, sign free.
+  float variation;   ///< sigma_p.
 };
 
 /// What is known of a point.
@@ -27,7 +27,7 @@ enum class ShapeState : std::uint8_t {
   kIsolated,  ///< Has none: fewer than 3 neighbours within reach, or all of them on a line with it.
 };
 
-/// Points go by their slots in the tree. Memory: 4 bytes per neighbour and 23 per slot. Bits of what is found depend on
+/// Points go by their slots in the tree. Memory: NeighbourRows and 18 bytes per slot. Bits of what is found depend on
 /// the points within twice the reach and the parameters only. compute() runs in parallel; reading is thread-safe.
 class TileNeighbourhoods {
  public:
@@ -41,12 +41,12 @@ class TileNeighbourhoods {
   ShapeState state(std::uint32_t slot) const { return states_[slot]; }
   const PointShape& shape(std::uint32_t slot) const { return shapes_[slot]; }
   /// By (distance, id).
-  std::span<const std::uint32_t> neighbours(std::uint32_t slot) const {
-    return {slots_.get() + std::size_t{slot} * stride_, counts_[slot]};
-  }
+  NeighbourList neighbours(std::uint32_t slot) const { return rows_[slot]; }
+  std::size_t count(std::uint32_t slot) const { return rows_.count(slot); }
+  std::uint32_t last_neighbour(std::uint32_t slot) const { return rows_.last(slot); }  ///< If there is any.
   /// By the rule and what is in sight; at most that if it is hardly anything. More in sight may make it more.
   std::size_t wanted(std::uint32_t slot) const { return wanted_[slot]; }
-  bool full(std::uint32_t slot) const { return counts_[slot] == wanted(slot); }  ///< As many as wanted.
+  bool full(std::uint32_t slot) const { return count(slot) == wanted(slot); }  ///< As many as wanted.
   /// Distance in steps within which the neighbours must lie, from those found; max_reach_steps() if they are too few.
   double reach_of(std::uint32_t slot) const;
   double max_reach_steps() const { return reach_steps_; }
@@ -61,12 +61,11 @@ class TileNeighbourhoods {
 
   const PointTree& tree_;
   NeighbourRule rule_;
-  std::size_t stride_;
   double reach_steps_;
   PlaneWeights weights_;
-  std::unique_ptr<std::uint32_t[]> slots_;  ///< Written where asked for only.
-  std::vector<std::uint8_t> counts_, wanted_;
-  std::vector<PointShape> shapes_;
+  NeighbourRows rows_;
+  std::vector<std::uint8_t> wanted_;
+  PageVector<PointShape> shapes_;  ///< Where there is one.
   std::vector<ShapeState> states_;
 };
 
