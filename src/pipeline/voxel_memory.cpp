@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/pages.h"
 #include "core/process_memory.h"
 #include "core/text.h"
 #include "core/voxel.h"
@@ -68,7 +69,7 @@ VoxelMemory::VoxelMemory(std::uint64_t budget_bytes)
 }
 
 std::uint64_t VoxelMemory::stage_bytes() const {
-  before_stage_bytes_ = resident_bytes();
+  before_stage_bytes_ = resident_bytes() - spare_pages_bytes();  // The stage takes those first.
   peak_before_stage_bytes_ = peak_resident_bytes();
   const std::uint64_t taken = before_stage_bytes_ + kPassBytes / 2;
   return usable_bytes_ > taken ? usable_bytes_ - taken : 0;

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "core/process_memory.h"
 #include "core/text.h"
 #include "pipeline/voxel_memory.h"
 #include "tiling/voxel_tiles.h"
@@ -75,7 +74,6 @@ void VoxelTileWalk::for_each(bool with_features, const std::function<void(const 
 std::uint64_t VoxelTileWalk::drop_features() {
   if (!loaded_) return 0;
   loaded_->features = {};
-  release_free_memory();
   const VoxelTile& tile = loaded_->voxels;
   return tile.size() * (sizeof(LatticePoint) + sizeof(VoxelPosition) + 2 * sizeof(std::uint32_t) + 1) +
          tile.colours.size() * sizeof(RawColour) + tile.neighbours.size() * sizeof(std::uint32_t);
@@ -83,7 +81,6 @@ std::uint64_t VoxelTileWalk::drop_features() {
 
 void VoxelTileWalk::drop() {
   loaded_.reset();
-  release_free_memory();
 }
 
 }  // namespace arris::pipeline
