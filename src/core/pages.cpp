@@ -37,51 +37,83 @@ std::uintptr_t map(std::size_t size) {
   return reinterpret_cast<std::uintptr_t>(pages);
 }
 
-/// Fresh pages for `size_bytes`, in whole large pages.
-std::uintptr_t map_large(std::size_t size_bytes) {
-  const std::size_t size = whole(size_bytes, kLargePage);
-  const std::uintptr_t address = map(size + kLargePage);  // Room to begin at a large page.
+/// Fresh pages that begin at a large page. What follows in the last large page is nobody's.
+std::uintptr_t map_large(std::size_t size) {
+  const std::size_t used = whole(size, kLargePage);
+  const std::uintptr_t address = map(used + kLargePage);
   const std::uintptr_t begin = whole(address, kLargePage);
   if (begin > address) unmap({address, begin - address});
-  if (address + kLargePage > begin) unmap({begin + size, address + kLargePage - begin});
+  unmap({begin + size, address + used + kLargePage - begin - size});
 #if defined(MADV_HUGEPAGE)
-  // Fewer faults and fewer misses of the address cache; it does not matter if the system refuses. The last one stays
-  // small pages unless it is full, so that no more than was asked for is resident.
-  ::madvise(reinterpret_cast<void*>(begin), size_bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
+  // Fewer faults and fewer misses of the address cache; it does not matter if the system refuses. Parts of a large page
+  // at the end stay small, so that no more than was asked for is ever resident.
+  ::madvise(reinterpret_cast<void*>(begin), size / kLargePage * kLargePage, MADV_HUGEPAGE);
 #endif
   return begin;
 }
 
-/// The part of a stretch up to the last large page of which something is resident: arrays fill from the front.
+/// The part of a stretch up to the last page that is resident: arrays fill from the front.
 Stretch written_part(const Stretch& stretch) noexcept {
   std::array<unsigned char, kLargePage / kPage> resident;
-  std::size_t size = stretch.size_bytes;
-  for (; size > 0; size -= kLargePage) {
-    void* const last = reinterpret_cast<void*>(stretch.begin + size - kLargePage);
-    if (::mincore(last, kLargePage, resident.data()) != 0) break;
-    if (std::ranges::any_of(resident, [](unsigned char page) { return (page & 1) != 0; })) break;
+  for (std::size_t size = stretch.size_bytes; size > 0;) {
+    const std::size_t looked_at = std::min(size, kLargePage);
+    if (::mincore(reinterpret_cast<void*>(stretch.begin + size - looked_at), looked_at, resident.data()) != 0)
+      return {stretch.begin, size};
+    for (std::size_t page = looked_at / kPage; page > 0; --page, size -= kPage) {
+      if ((resident[page - 1] & 1) != 0) return {stretch.begin, size};
+    }
   }
-  return {stretch.begin, size};
+  return {stretch.begin, 0};
 }
 
-/// Stretches that were returned and not taken again, by address; those that touch are one.
-class SpareStretches {
+/// What was returned and not taken again: stretches by address; those that touch are one. Thread-safe.
+class SparePages {
  public:
-  /// Of the smallest stretch that is long enough, its beginning; 0 if there is none.
   std::uintptr_t take(std::size_t size) {
+    const std::lock_guard lock(mutex_);
+    const bool large = size >= 2 * kLargePage;
+    if (const std::uintptr_t begin = take_stretch(size, large ? kLargePage : kPage)) return begin;
+    const std::uintptr_t begin = large ? map_large(size) : map(size);
+    // What does not fit must not be resident beside what is made anew.
+    if (!large || !gather(begin, size / kLargePage)) drop_all();
+    return begin;
+  }
+  void keep(const Stretch& stretch) noexcept {
+    const std::lock_guard lock(mutex_);
+    const Stretch written = written_part(stretch);
+    if (written.size_bytes < stretch.size_bytes) unmap({written.end(), stretch.size_bytes - written.size_bytes});
+    if (written.size_bytes > 0) insert(written);
+  }
+  void drop() noexcept {
+    const std::lock_guard lock(mutex_);
+    drop_all();
+  }
+  std::size_t size_bytes() const noexcept {
+    const std::lock_guard lock(mutex_);
+    std::size_t sum = 0;
+    for (const Stretch& stretch : spare_) sum += stretch.size_bytes;
+    return sum;
+  }
+
+ private:
+  /// From the smallest stretch that is long enough, its beginning on a multiple of `unit`; 0 if there is none.
+  std::uintptr_t take_stretch(std::size_t size, std::size_t unit) {
     auto best = spare_.end();
     for (auto it = spare_.begin(); it != spare_.end(); ++it) {
-      if (it->size_bytes >= size && (best == spare_.end() || it->size_bytes < best->size_bytes)) best = it;
+      if (whole(it->begin, unit) + size > it->end()) continue;
+      if (best == spare_.end() || it->size_bytes < best->size_bytes) best = it;
     }
-    return best == spare_.end() ? 0 : cut(best, size).begin;
+    return best == spare_.end() ? 0 : cut(best, whole(best->begin, unit), size);
   }
-  /// At most so much of the largest stretch; empty if there is none.
-  Stretch take_some(std::size_t most) {
-    const auto largest = std::ranges::max_element(spare_, {}, &Stretch::size_bytes);
-    return largest == spare_.end() ? Stretch{0, 0} : cut(largest, std::min(most, largest->size_bytes));
+  /// Takes part of a stretch; what is before and after it stays.
+  std::uintptr_t cut(std::vector<Stretch>::iterator from, std::uintptr_t begin, std::size_t size) {
+    const Stretch after{begin + size, from->end() - begin - size};
+    from->size_bytes = begin - from->begin;
+    if (from->size_bytes == 0) spare_.erase(from);
+    if (after.size_bytes > 0) insert(after);
+    return begin;
   }
-  void keep(Stretch stretch) noexcept {
-    if (stretch.size_bytes == 0) return;
+  void insert(Stretch stretch) noexcept {
     auto after = std::ranges::lower_bound(spare_, stretch.begin, {}, &Stretch::begin);
     if (after != spare_.end() && stretch.end() == after->begin) {
       stretch.size_bytes += after->size_bytes;
@@ -95,87 +127,23 @@ class SpareStretches {
       unmap(stretch);
     }
   }
-  void drop() noexcept {
+  void drop_all() noexcept {
     for (const Stretch& stretch : spare_) unmap(stretch);
     spare_.clear();
   }
-  std::size_t size_bytes() const noexcept {
-    std::size_t sum = 0;
-    for (const Stretch& stretch : spare_) sum += stretch.size_bytes;
-    return sum;
-  }
 
- private:
-  static constexpr std::size_t kMost = 64;
-  static std::vector<Stretch> room() {
-    std::vector<Stretch> spare;
-    spare.reserve(kMost);
-    return spare;
-  }
-  Stretch cut(std::vector<Stretch>::iterator from, std::size_t size) {
-    const Stretch taken{from->begin, size};
-    *from = {from->begin + size, from->size_bytes - size};
-    if (from->size_bytes == 0) spare_.erase(from);
-    return taken;
-  }
-
-  std::vector<Stretch> spare_ = room();
-};
-
-/// What was returned and not taken again. Thread-safe.
-class SparePages {
- public:
-  void* take(std::size_t size_bytes) {
-    const std::lock_guard lock(mutex_);
-    const bool large = is_large(size_bytes);
-    const std::size_t size = whole(size_bytes, large ? kLargePage : kPage);
-    std::uintptr_t begin = (large ? large_ : small_).take(size);
-    if (begin == 0 && large) begin = gather(size_bytes);
-    if (begin == 0) {
-      small_.drop();
-      begin = map(size);
-    }
-    return reinterpret_cast<void*>(begin);
-  }
-  void keep(void* pages, std::size_t size_bytes) noexcept {
-    const std::lock_guard lock(mutex_);
-    const auto begin = reinterpret_cast<std::uintptr_t>(pages);
-    if (!is_large(size_bytes)) return small_.keep({begin, whole(size_bytes, kPage)});
-    const Stretch all{begin, whole(size_bytes, kLargePage)};
-    const Stretch written = written_part(all);
-    if (written.size_bytes < all.size_bytes) unmap({written.end(), all.size_bytes - written.size_bytes});
-    large_.keep(written);
-  }
-  void drop() noexcept {
-    const std::lock_guard lock(mutex_);
-    small_.drop();
-    large_.drop();
-  }
-  std::size_t size_bytes() const noexcept {
-    const std::lock_guard lock(mutex_);
-    return small_.size_bytes() + large_.size_bytes();
-  }
-
- private:
-  static bool is_large(std::size_t size_bytes) { return size_bytes >= 2 * kLargePage; }
-
-  /// Large pages from all spare stretches under one address, the rest fresh.
-  std::uintptr_t gather(std::size_t size_bytes) {
-    const std::uintptr_t begin = map_large(size_bytes);
+  /// Puts spare large pages in the place of fresh ones; false if there are not enough.
+  bool gather([[maybe_unused]] std::uintptr_t to, [[maybe_unused]] std::size_t count) {
 #if defined(MREMAP_FIXED)
-    const std::uintptr_t end = begin + std::min(whole(size_bytes, kLargePage), kMostGathered);
-    for (std::uintptr_t to = begin; to < end;) {
-      const Stretch some = large_.take_some(end - to);
-      if (some.size_bytes == 0) break;
-      for (std::uintptr_t from = some.begin; from < some.end(); from += kLargePage, to += kLargePage)
-        move_large_page(from, to);
+    for (std::size_t i = 0; i < count && i < kMostGathered; ++i, to += kLargePage) {
+      const std::uintptr_t from = take_stretch(kLargePage, kLargePage);
+      if (from == 0) return false;
+      move_large_page(from, to);
     }
-    if (large_.size_bytes() > 0) return begin;
+    return count <= kMostGathered;
+#else
+    return false;
 #endif
-    // What does not fit must not be resident beside what is made anew.
-    small_.drop();
-    large_.drop();
-    return begin;
   }
 
 #if defined(MREMAP_FIXED)
@@ -191,11 +159,17 @@ class SparePages {
   }
 #endif
   /// Each page that is moved may be a mapping of its own, of which a process has some ten thousands.
-  static constexpr std::size_t kMostGathered = std::size_t{4} << 30;
+  static constexpr std::size_t kMostGathered = 2048;
+
+  static constexpr std::size_t kMost = 256;
+  static std::vector<Stretch> room() {
+    std::vector<Stretch> spare;
+    spare.reserve(kMost);
+    return spare;
+  }
 
   mutable std::mutex mutex_;
-  SpareStretches small_;  // In pages.
-  SpareStretches large_;  // In large pages, aligned to them.
+  std::vector<Stretch> spare_ = room();
 };
 
 SparePages& spare_pages() {
@@ -206,11 +180,11 @@ SparePages& spare_pages() {
 }  // namespace
 
 void* take_pages(std::size_t size_bytes) {
-  return spare_pages().take(size_bytes);
+  return reinterpret_cast<void*>(spare_pages().take(whole(size_bytes, kPage)));
 }
 
 void return_pages(void* pages, std::size_t size_bytes) noexcept {
-  spare_pages().keep(pages, size_bytes);
+  spare_pages().keep({reinterpret_cast<std::uintptr_t>(pages), whole(size_bytes, kPage)});
 }
 
 void drop_spare_pages() noexcept {

@@ -31,7 +31,7 @@ TEST(Pages, WhatIsReturned_IsTakenAgain) {
   void* const again = take_pages(5 * kMiB);
   EXPECT_EQ(again, first);
   void* const rest = take_pages(4 * kMiB);
-  EXPECT_EQ(rest, static_cast<char*>(first) + 6 * kMiB);  // In large pages of 2 MiB.
+  EXPECT_EQ(rest, static_cast<char*>(first) + 6 * kMiB);  // Begins at a large page of 2 MiB.
   return_pages(again, 5 * kMiB);
   return_pages(rest, 4 * kMiB);
   EXPECT_EQ(take_pages(10 * kMiB), first);  // What touches is one again.
@@ -45,7 +45,8 @@ TEST(Pages, WhatWasNeverWritten_IsNotKept) {
   void* const pages = take_pages(64 * kMiB);
   std::memset(pages, 1, 5 * kMiB);
   return_pages(pages, 64 * kMiB);
-  EXPECT_EQ(spare_pages_bytes(), 6 * kMiB);
+  EXPECT_GE(spare_pages_bytes(), 5 * kMiB);
+  EXPECT_LE(spare_pages_bytes(), 6 * kMiB);
   drop_spare_pages();
 }
 
@@ -56,14 +57,14 @@ TEST(Pages, StretchesTooShort_AreGathered) {
   for (std::size_t i = 0; i < blocks.size(); i += 2) return_pages(blocks[i], 8 * kMiB);
   EXPECT_EQ(spare_pages_bytes(), 24 * kMiB);
   const std::uint64_t before = resident_bytes();
-  void* const gathered = take_written(23 * kMiB);
+  void* const gathered = take_written(24 * kMiB);
   EXPECT_EQ(spare_pages_bytes(), 0U);
   EXPECT_LT(resident_bytes(), before + 4 * kMiB);
   void* const longer = take_written(16 * kMiB);  // Nothing is left: fresh.
-  return_pages(gathered, 23 * kMiB);
+  return_pages(gathered, 24 * kMiB);
   return_pages(longer, 16 * kMiB);
-  void* const all = take_written(43 * kMiB);
-  return_pages(all, 43 * kMiB);
+  void* const all = take_written(44 * kMiB);
+  return_pages(all, 44 * kMiB);
   for (std::size_t i = 1; i < blocks.size(); i += 2) {
     EXPECT_EQ(static_cast<char*>(blocks[i])[8 * kMiB - 1], 1);
     return_pages(blocks[i], 8 * kMiB);
