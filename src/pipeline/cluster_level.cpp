@@ -61,7 +61,7 @@ class Clustering {
     progress_.phase("seeds", walk_.store().size());
     std::uint64_t seeds = 0;
     bool fit = true;
-    walk_.for_each(true, [&](const LoadedTile& tile) {
+    walk_.for_each(TileView::kFeatures, [&](const LoadedTile& tile) {
       const std::vector<Seed> found = find_seeds(tile.voxels, scale_);
       seeds += found.size();
       // Before they take the memory, not after. Those that do not fit are counted, to say what would do.
@@ -74,7 +74,7 @@ class Clustering {
 
   void grow(bool last) {
     progress_.phase("supervoxels", walk_.store().size());
-    walk_.for_each(true, [&](const LoadedTile& tile) {
+    walk_.for_each(TileView::kFeatures, [&](const LoadedTile& tile) {
       const std::vector<TileSeed> seeds = tile_seeds(tile.voxels, table_.clusters(), table_.by_seed_rank());
       PageVector<std::uint32_t> clusters_of =
           grow_clusters(tile.voxels, tile.features, table_.clusters(), seeds, parameters_, scale_);
@@ -91,7 +91,7 @@ class Clustering {
   }
 
   void move_seeds() {
-    walk_.for_each(false, [&](const LoadedTile& tile) {
+    walk_.for_each(TileView::kCore, [&](const LoadedTile& tile) {
       PageVector<std::uint32_t> clusters_of(tile.voxels.size());
       for (std::size_t v = 0; v < clusters_of.size(); ++v) clusters_of[v] = level_.clusters_of[tile.voxels.ranks[v]];
       table_.offer_seeds(tile.voxels, clusters_of);

@@ -37,8 +37,8 @@ ClusterLevel cluster_all(VoxelTileWalk& walk, const SupervoxelStageRequest& requ
   }
   // Half of what is left: the other half is for reading these voxels.
   const std::uint64_t left_bytes = here.memory_bytes > here_bytes ? here.memory_bytes - here_bytes : 0;
-  const tiling::VoxelStore coarse = coarser_voxels(walk.store(), walk.tiles(), level.clusters_of, here.colours,
-                                                   request.folder, left_bytes / 2, cancel);
+  const tiling::VoxelStore coarse =
+      coarser_voxels(walk.store(), walk.tiles(), level.clusters_of, here.colours, here.folder, left_bytes / 2, cancel);
   TileWalkRequest there = here;
   there.scale = coarser(here.scale, here.parameters);
   VoxelTileWalk coarse_walk(coarse, there, progress, cancel);
@@ -62,6 +62,7 @@ class Stage {
     result_.tiles = walk_.tiles().tiles.size();
     result_.largest_tile_voxels = walk_.largest_tile_voxels();
     result_.predicted_bytes = walk_.predicted_bytes();
+    result_.normals_bytes_on_disk = walk_.normals_bytes_on_disk();
     number(level);
     look_at_neighbours(level.seed_ranks);
     return std::move(result_);
@@ -89,7 +90,7 @@ class Stage {
     progress_.phase("neighbours", result_.ids.size());
     result_.shared.assign((result_.ids.size() + 63) / 64, 0);
     auto& pairs = result_.adjacency;
-    walk_.for_each(false, [&](const LoadedTile& tile) {
+    walk_.for_each(TileView::kTouching, [&](const LoadedTile& tile) {
       std::mutex mutex;
       parallel_for_chunks(tile.voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         Pairs found;
