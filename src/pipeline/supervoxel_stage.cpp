@@ -48,6 +48,7 @@ ClusterLevel cluster_all(VoxelTileWalk& walk, const SupervoxelStageRequest& requ
                    cancel);
   level.count += coarse_level.count;
   level.groups = coarse_level.groups;
+  level.predicted_bytes = std::max(level.predicted_bytes, coarse_level.predicted_bytes);
   return level;
 }
 
@@ -61,7 +62,7 @@ class Stage {
     ClusterLevel level = cluster_all(walk_, request_, 0, progress_, cancel_);
     result_.tiles = walk_.tiles().tiles.size();
     result_.largest_tile_voxels = walk_.largest_tile_voxels();
-    result_.predicted_bytes = walk_.predicted_bytes();
+    result_.predicted_bytes = level.predicted_bytes;
     result_.normals_bytes_on_disk = walk_.normals_bytes_on_disk();
     number(level);
     look_at_neighbours(level.seed_ranks);
@@ -82,7 +83,7 @@ class Stage {
     for (std::size_t cluster = 0; cluster < level.planes.size(); ++cluster)
       result_.planes[id_of[cluster]] = level.planes[cluster];
     result_.groups = level.groups;
-    result_.coarse = level.count - static_cast<std::uint32_t>(level.planes.size());
+    result_.coarse = level.count - static_cast<std::uint32_t>(level.planes.size()) - level.lone;
   }
 
   /// Pairs of neighbours, and voxels that several surfaces share.

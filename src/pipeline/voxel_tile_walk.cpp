@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/pages.h"
 #include "core/text.h"
 #include "features/supervoxel/voxel_normals.h"
 #include "pipeline/voxel_memory.h"
@@ -43,12 +44,15 @@ void VoxelTileWalk::plan(std::uint64_t kept_bytes) {
   tiles.halo_voxels = request_.scale.halo_voxels();
   plan_ = tiling::plan_voxel_tiles(store_.index(), tiles);
   loaded_.reset();
-  predicted_bytes_ = kept_bytes + static_cast<std::uint64_t>(each * static_cast<double>(largest_tile_voxels()));
+  const auto tile_bytes = static_cast<std::uint64_t>(each * static_cast<double>(largest_tile_voxels()));
+  // What larger tiles have left must not be resident beside what is kept now.
+  if (spare_pages_bytes() > tile_bytes) drop_spare_pages();
+  predicted_bytes_ = kept_bytes + tile_bytes;
   require(predicted_bytes_);
 }
 
 void VoxelTileWalk::require(std::uint64_t bytes) const {
-  if (fits(bytes)) return;
+  if (bytes <= request_.memory_bytes) return;
   throw BudgetError(fmt::format(
       "{} voxels and their supervoxels do not fit; run with at least --memory {}, or with larger --voxel or --seed",
       grouped(store_.size()), budget_text(raised_budget_bytes(request_.budget_bytes, bytes - request_.memory_bytes))));

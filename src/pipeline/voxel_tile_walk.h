@@ -51,7 +51,6 @@ class VoxelTileWalk {
 
   /// Cuts tiles (again). @param kept_bytes  what the caller keeps. Throws BudgetError if that and a tile do not fit.
   void plan(std::uint64_t kept_bytes);
-  bool fits(std::uint64_t bytes) const { return bytes <= request_.memory_bytes; }
   const tiling::TilePlan& tiles() const { return plan_; }
   std::uint64_t predicted_bytes() const { return predicted_bytes_; }
   std::uint64_t largest_tile_voxels() const;
