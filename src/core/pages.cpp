@@ -3,7 +3,9 @@
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <iterator>
 #include <mutex>
 #include <new>
 #include <vector>
@@ -14,31 +16,34 @@ namespace {
 constexpr std::size_t kPage = std::size_t{4} << 10;
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
-constexpr std::size_t whole_pages(std::size_t size_bytes) {
-  return (size_bytes + kPage - 1) / kPage * kPage;
+constexpr std::size_t whole(std::size_t size, std::size_t unit) {
+  return (size + unit - 1) / unit * unit;
 }
 
 /// A stretch of address space that begins at a page.
 struct Stretch {
   std::uintptr_t begin;
   std::size_t size_bytes;
+  std::uintptr_t end() const { return begin + size_bytes; }
 };
 
 void unmap(const Stretch& stretch) noexcept {
   ::munmap(reinterpret_cast<void*>(stretch.begin), stretch.size_bytes);
 }
 
-/// Fresh pages; large ones where they fill whole ones.
 std::uintptr_t map(std::size_t size) {
-  const bool large = size >= 2 * kLargePage;
-  const std::size_t mapped = size + (large ? kLargePage : 0);  // Room to begin at a large page.
-  void* const pages = ::mmap(nullptr, mapped, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* const pages = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (pages == MAP_FAILED) throw std::bad_alloc();
-  const auto address = reinterpret_cast<std::uintptr_t>(pages);
-  if (!large) return address;
-  const std::uintptr_t begin = (address + kLargePage - 1) / kLargePage * kLargePage;
+  return reinterpret_cast<std::uintptr_t>(pages);
+}
+
+/// Fresh pages that begin at a large page. What follows in the last large page is nobody's.
+std::uintptr_t map_large(std::size_t size) {
+  const std::size_t used = whole(size, kLargePage);
+  const std::uintptr_t address = map(used + kLargePage);
+  const std::uintptr_t begin = whole(address, kLargePage);
   if (begin > address) unmap({address, begin - address});
-  if (address + mapped > begin + size) unmap({begin + size, address + mapped - begin - size});
+  unmap({begin + size, address + used + kLargePage - begin - size});
 #if defined(MADV_HUGEPAGE)
   // Fewer faults and fewer misses of the address cache; it does not matter if the system refuses. Parts of a large page
   // at the end stay small, so that no more than was asked for is ever resident.
@@ -47,49 +52,123 @@ std::uintptr_t map(std::size_t size) {
   return begin;
 }
 
-/// What was returned and not taken again. Thread-safe.
+/// The part of a stretch up to the last page that is resident: arrays fill from the front.
+Stretch written_part(const Stretch& stretch) noexcept {
+  std::array<unsigned char, kLargePage / kPage> resident;
+  for (std::size_t size = stretch.size_bytes; size > 0;) {
+    const std::size_t looked_at = std::min(size, kLargePage);
+    if (::mincore(reinterpret_cast<void*>(stretch.begin + size - looked_at), looked_at, resident.data()) != 0)
+      return {stretch.begin, size};
+    for (std::size_t page = looked_at / kPage; page > 0; --page, size -= kPage) {
+      if ((resident[page - 1] & 1) != 0) return {stretch.begin, size};
+    }
+  }
+  return {stretch.begin, 0};
+}
+
+/// What was returned and not taken again: stretches by address; those that touch are one. Thread-safe.
 class SparePages {
  public:
-  /// The smallest stretch that is long enough; what is left of it stays here. 0 if there is none.
   std::uintptr_t take(std::size_t size) {
     const std::lock_guard lock(mutex_);
-    auto best = spare_.end();
-    for (auto it = spare_.begin(); it != spare_.end(); ++it) {
-      if (it->size_bytes >= size && (best == spare_.end() || it->size_bytes < best->size_bytes)) best = it;
-    }
-    if (best == spare_.end()) return 0;
-    const std::uintptr_t begin = best->begin;
-    const std::size_t used = size >= 2 * kLargePage ? (size + kLargePage - 1) / kLargePage * kLargePage : size;
-    if (best->size_bytes > used) {
-      // The rest begins at a large page if this did.
-      if (used > size) unmap({begin + size, used - size});
-      *best = {begin + used, best->size_bytes - used};
-    } else {
-      if (best->size_bytes > size) unmap({begin + size, best->size_bytes - size});
-      spare_.erase(best);
-    }
+    const bool large = size >= 2 * kLargePage;
+    if (const std::uintptr_t begin = take_stretch(size, large ? kLargePage : kPage)) return begin;
+    const std::uintptr_t begin = large ? map_large(size) : map(size);
+    // What does not fit must not be resident beside what is made anew.
+    if (!large || !gather(begin, size / kLargePage)) drop_all();
     return begin;
   }
-  bool keep(const Stretch& stretch) noexcept {
+  void keep(const Stretch& stretch) noexcept {
     const std::lock_guard lock(mutex_);
-    if (spare_.size() == kMost) return false;
-    spare_.push_back(stretch);
-    return true;
+    const Stretch written = written_part(stretch);
+    if (written.size_bytes < stretch.size_bytes) unmap({written.end(), stretch.size_bytes - written.size_bytes});
+    if (written.size_bytes > 0) insert(written);
   }
   void drop() noexcept {
     const std::lock_guard lock(mutex_);
+    drop_all();
+  }
+  std::size_t size_bytes() const noexcept {
+    const std::lock_guard lock(mutex_);
+    std::size_t sum = 0;
+    for (const Stretch& stretch : spare_) sum += stretch.size_bytes;
+    return sum;
+  }
+
+ private:
+  /// From the smallest stretch that is long enough, its beginning on a multiple of `unit`; 0 if there is none.
+  std::uintptr_t take_stretch(std::size_t size, std::size_t unit) {
+    auto best = spare_.end();
+    for (auto it = spare_.begin(); it != spare_.end(); ++it) {
+      if (whole(it->begin, unit) + size > it->end()) continue;
+      if (best == spare_.end() || it->size_bytes < best->size_bytes) best = it;
+    }
+    return best == spare_.end() ? 0 : cut(best, whole(best->begin, unit), size);
+  }
+  /// Takes part of a stretch; what is before and after it stays.
+  std::uintptr_t cut(std::vector<Stretch>::iterator from, std::uintptr_t begin, std::size_t size) {
+    const Stretch after{begin + size, from->end() - begin - size};
+    from->size_bytes = begin - from->begin;
+    if (from->size_bytes == 0) spare_.erase(from);
+    if (after.size_bytes > 0) insert(after);
+    return begin;
+  }
+  void insert(Stretch stretch) noexcept {
+    auto after = std::ranges::lower_bound(spare_, stretch.begin, {}, &Stretch::begin);
+    if (after != spare_.end() && stretch.end() == after->begin) {
+      stretch.size_bytes += after->size_bytes;
+      after = spare_.erase(after);
+    }
+    if (after != spare_.begin() && std::prev(after)->end() == stretch.begin) {
+      std::prev(after)->size_bytes += stretch.size_bytes;
+    } else if (spare_.size() < kMost) {
+      spare_.insert(after, stretch);
+    } else {
+      unmap(stretch);
+    }
+  }
+  void drop_all() noexcept {
     for (const Stretch& stretch : spare_) unmap(stretch);
     spare_.clear();
   }
 
- private:
-  static constexpr std::size_t kMost = 16;
+  /// Puts spare large pages in the place of fresh ones; false if there are not enough.
+  bool gather([[maybe_unused]] std::uintptr_t to, [[maybe_unused]] std::size_t count) {
+#if defined(MREMAP_FIXED)
+    for (std::size_t i = 0; i < count && i < kMostGathered; ++i, to += kLargePage) {
+      const std::uintptr_t from = take_stretch(kLargePage, kLargePage);
+      if (from == 0) return false;
+      move_large_page(from, to);
+    }
+    return count <= kMostGathered;
+#else
+    return false;
+#endif
+  }
+
+#if defined(MREMAP_FIXED)
+  /// Page by page: what the system moves must come from one mapping.
+  static void move_large_page(std::uintptr_t from, std::uintptr_t to) {
+    void* const at = reinterpret_cast<void*>(to);
+    if (::mremap(reinterpret_cast<void*>(from), kLargePage, kLargePage, MREMAP_MAYMOVE | MREMAP_FIXED, at) == at)
+      return;
+    unmap({from, kLargePage});
+    // The system may have taken away what was there before it refused.
+    if (::mmap(at, kLargePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) == MAP_FAILED)
+      throw std::bad_alloc();
+  }
+#endif
+  /// Each page that is moved may be a mapping of its own, of which a process has some ten thousands.
+  static constexpr std::size_t kMostGathered = 2048;
+
+  static constexpr std::size_t kMost = 256;
   static std::vector<Stretch> room() {
     std::vector<Stretch> spare;
     spare.reserve(kMost);
     return spare;
   }
-  std::mutex mutex_;
+
+  mutable std::mutex mutex_;
   std::vector<Stretch> spare_ = room();
 };
 
@@ -101,19 +180,19 @@ SparePages& spare_pages() {
 }  // namespace
 
 void* take_pages(std::size_t size_bytes) {
-  const std::size_t size = whole_pages(size_bytes);
-  if (const std::uintptr_t spare = spare_pages().take(size)) return reinterpret_cast<void*>(spare);
-  drop_spare_pages();  // What does not fit must not be resident beside what is made anew.
-  return reinterpret_cast<void*>(map(size));
+  return reinterpret_cast<void*>(spare_pages().take(whole(size_bytes, kPage)));
 }
 
 void return_pages(void* pages, std::size_t size_bytes) noexcept {
-  const Stretch stretch{reinterpret_cast<std::uintptr_t>(pages), whole_pages(size_bytes)};
-  if (!spare_pages().keep(stretch)) unmap(stretch);
+  spare_pages().keep({reinterpret_cast<std::uintptr_t>(pages), whole(size_bytes, kPage)});
 }
 
 void drop_spare_pages() noexcept {
   spare_pages().drop();
+}
+
+std::size_t spare_pages_bytes() noexcept {
+  return spare_pages().size_bytes();
 }
 
 }  // namespace arris

@@ -37,6 +37,10 @@ void configure_allocator_for_budget() {
 
 void release_free_memory() {
   drop_spare_pages();
+  trim_heap();
+}
+
+void trim_heap() {
   // Where another allocator (a sanitizer's, a preloaded one) has taken the place of glibc's, the first call sets
   // glibc's heap up, which glibc does not guard against a second thread that trims at the same time. This does.
   static const int first = malloc_trim(0);

@@ -14,6 +14,8 @@ std::uint64_t resident_bytes();
 /// does not stay resident. Call once, early, from main(); a library must not decide this for its host.
 void configure_allocator_for_budget();
 /// Gives freed heap memory back to the system.
+void trim_heap();
+/// The same, and spare pages (core/pages.h).
 void release_free_memory();
 
 }  // namespace arris

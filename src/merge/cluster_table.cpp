@@ -80,11 +80,11 @@ struct ClusterTable::Impl {
     LatticePoint cell;
     std::uint32_t rank;
     ClusterCentre centre;
-    FeatureHistogram histogram;
   };
 
   bool histograms = false;
   std::vector<NewSeed> new_seeds;
+  std::vector<FeatureHistogram> new_histograms;  // If there are any.
   Clusters clusters;
   std::vector<std::uint32_t> by_rank;
   std::vector<Sums> sums;
@@ -167,25 +167,35 @@ ClusterTable::~ClusterTable() = default;
 
 void ClusterTable::add_seeds(const VoxelTile& tile, const VoxelFeatures& features, std::span<const Seed> seeds) {
   for (const Seed& seed : seeds) {
-    Impl::NewSeed s{
-        seed.cell, tile.ranks[seed.voxel], {tile.positions[seed.voxel], features.normals[seed.voxel], {}}, {}};
+    Impl::NewSeed s{seed.cell, tile.ranks[seed.voxel], {tile.positions[seed.voxel], features.normals[seed.voxel], {}}};
     if (!features.colours.empty()) s.centre.colour = features.colours[seed.voxel];
-    if (impl_->histograms) s.histogram = features.histograms[seed.voxel];
     impl_->new_seeds.push_back(s);
+    if (impl_->histograms) impl_->new_histograms.push_back(features.histograms[seed.voxel]);
   }
 }
 
-void ClusterTable::fix_seeds() {
-  std::sort(impl_->new_seeds.begin(), impl_->new_seeds.end(),
-            [](const auto& a, const auto& b) { return a.cell < b.cell; });
-  Clusters& c = impl_->clusters;
-  for (const Impl::NewSeed& s : impl_->new_seeds) {
-    c.seed_ranks.push_back(s.rank);
-    c.seed_positions.push_back(s.centre.position);
-    c.centres.push_back(s.centre);
-    if (impl_->histograms) c.histograms.push_back(s.histogram);
-  }
+void ClusterTable::drop_seeds() {
   impl_->new_seeds = {};
+  impl_->new_histograms = {};
+}
+
+void ClusterTable::fix_seeds() {
+  const auto& seeds = impl_->new_seeds;
+  std::vector<std::uint32_t> order(seeds.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) { return seeds[a].cell < seeds[b].cell; });
+  Clusters& c = impl_->clusters;
+  c.seed_ranks.reserve(order.size());
+  c.seed_positions.reserve(order.size());
+  c.centres.reserve(order.size());
+  if (impl_->histograms) c.histograms.reserve(order.size());
+  for (const std::uint32_t i : order) {
+    c.seed_ranks.push_back(seeds[i].rank);
+    c.seed_positions.push_back(seeds[i].centre.position);
+    c.centres.push_back(seeds[i].centre);
+    if (impl_->histograms) c.histograms.push_back(impl_->new_histograms[i]);
+  }
+  drop_seeds();
   impl_->order_by_rank();
   impl_->sums.assign(c.size(), {});
   impl_->offers.assign(c.size(), {});
@@ -265,13 +275,6 @@ void ClusterTable::move_seeds() {
   }
   impl_->offers.assign(c.size(), {});
   impl_->order_by_rank();
-}
-
-std::uint64_t ClusterTable::memory_bytes() const {
-  const std::uint64_t each = sizeof(std::uint32_t) * 2 + sizeof(VoxelPosition) + sizeof(ClusterCentre) + sizeof(Sums) +
-                             sizeof(SeedOffer) +
-                             (impl_->histograms ? sizeof(FeatureHistogram) + sizeof(HistogramSums) : 0);
-  return each * impl_->clusters.size() + sizeof(Impl::NewSeed) * impl_->new_seeds.capacity();
 }
 
 }  // namespace arris::merge

@@ -28,6 +28,8 @@ class ClusterTable {
 
   /// Seeds of one tile; their centres begin with the features of their voxels.
   void add_seeds(const VoxelTile& tile, const VoxelFeatures& features, std::span<const Seed> seeds);
+  /// Forgets all seeds; before fix_seeds() only.
+  void drop_seeds();
   /// Gives the seeds their indices: ascending cells.
   void fix_seeds();
 
@@ -47,8 +49,6 @@ class ClusterTable {
   /// Offers every core voxel as the next seed of its cluster: the one nearest to the centre wins, ties by rank.
   void offer_seeds(const VoxelTile& tile, std::span<const std::uint32_t> clusters_of);
   void move_seeds();
-
-  std::uint64_t memory_bytes() const;
 
  private:
   struct Impl;

@@ -1,7 +1,7 @@
 #include "pipeline/cluster_level.h"
 
 #include <algorithm>
-#include <numeric>
+#include <iterator>
 #include <utility>
 
 #include "features/supervoxel/cluster_growth.h"
@@ -13,7 +13,7 @@ namespace arris::pipeline {
 namespace {
 
 /// Bytes of a cluster in all tables, for predictions before the clusters are known.
-constexpr std::uint64_t kClusterBytes = 350;
+constexpr std::uint64_t kClusterBytes = 260;
 constexpr std::uint64_t kClusterHistogramBytes = 400;
 
 class Clustering {
@@ -29,11 +29,16 @@ class Clustering {
     const std::uint32_t voxels = walk_.store().size();
     level_.clusters_of.assign(voxels, kNoCluster);
     if (voxels == 0) return std::move(level_);
-    kept_bytes += sizeof(std::uint32_t) * std::uint64_t{voxels};
-    const std::uint64_t likely = likely_clusters() * cluster_bytes();
-    walk_.plan(kept_bytes + likely);
-    find_all_seeds(kept_bytes);
-    if (table_.memory_bytes() > likely) walk_.plan(kept_bytes + table_.memory_bytes());
+    lone_.assign(voxels, false);
+    kept_bytes += sizeof(std::uint32_t) * std::uint64_t{voxels} + voxels / 8;
+    const std::uint64_t likely = likely_clusters();
+    walk_.plan(kept_bytes + likely * cluster_bytes());
+    if (const std::uint64_t seeds = find_seeds_up_to(likely); seeds > likely) {
+      // Tiles must leave them their room.
+      walk_.plan(kept_bytes + seeds * cluster_bytes());
+      find_seeds_up_to(seeds);
+    }
+    table_.fix_seeds();
     for (int iteration = 1; iteration < parameters_.iterations; ++iteration) {
       grow(false);
       table_.update_centres();
@@ -43,6 +48,8 @@ class Clustering {
     level_.count = table_.clusters().size();
     level_.planes = table_.planes();
     level_.seed_ranks = table_.clusters().seed_ranks;
+    level_.predicted_bytes = walk_.predicted_bytes();
+    number_lone();
     if (group_leftovers) number_groups();
     return std::move(level_);
   }
@@ -52,36 +59,49 @@ class Clustering {
     const bool histograms = parameters_.features == SupervoxelParameters::Features::kFpfh;
     return kClusterBytes + (histograms ? kClusterHistogramBytes : 0);
   }
+  /// Voxels that have a block of the index to themselves are lone, most of them.
   std::uint64_t likely_clusters() const {
     const double cells = static_cast<double>(scale_.seed_steps) / scale_.voxel_steps;
-    return static_cast<std::uint64_t>(2.0 * walk_.store().size() / (cells * cells)) + 1000;
+    const tiling::VoxelIndex& index = walk_.store().index();
+    std::uint64_t together = 0;
+    for (std::size_t i = 0; i < index.blocks(); ++i) together += index.block(i).voxels > 1 ? index.block(i).voxels : 0;
+    return static_cast<std::uint64_t>(2.0 * static_cast<double>(together) / (cells * cells)) + 1000;
   }
 
-  void find_all_seeds(std::uint64_t kept_bytes) {
+  /// Puts all seeds into the table if there are no more than `most`, else none. Returns how many there are.
+  std::uint64_t find_seeds_up_to(std::uint64_t most) {
     progress_.phase("seeds", walk_.store().size());
     std::uint64_t seeds = 0;
-    bool fit = true;
-    walk_.for_each(true, [&](const LoadedTile& tile) {
-      const std::vector<Seed> found = find_seeds(tile.voxels, scale_);
+    walk_.for_each(TileView::kFeatures, [&](const LoadedTile& tile) {
+      std::vector<Seed> found = find_seeds(tile.voxels, scale_);
+      set_lone_apart(tile.voxels, found);
       seeds += found.size();
-      // Before they take the memory, not after. Those that do not fit are counted, to say what would do.
-      fit = fit && walk_.fits(kept_bytes + seeds * cluster_bytes());
-      if (fit) table_.add_seeds(tile.voxels, tile.features, found);
+      if (seeds <= most) table_.add_seeds(tile.voxels, tile.features, found);
     });
-    if (!fit) walk_.plan(kept_bytes + seeds * cluster_bytes());
-    table_.fix_seeds();
+    if (seeds > most) table_.drop_seeds();
+    return seeds;
+  }
+
+  /// Seeds without neighbours are all that their clusters will ever be: they need no place in the table.
+  void set_lone_apart(const VoxelTile& tile, std::vector<Seed>& seeds) {
+    std::erase_if(seeds, [&](const Seed& seed) {
+      const bool lone = tile.neighbours_of(seed.voxel).empty();
+      if (lone) lone_[tile.ranks[seed.voxel]] = true;
+      return lone;
+    });
   }
 
   void grow(bool last) {
     progress_.phase("supervoxels", walk_.store().size());
-    walk_.for_each(true, [&](const LoadedTile& tile) {
+    walk_.for_each(TileView::kFeatures, [&](const LoadedTile& tile) {
       const std::vector<TileSeed> seeds = tile_seeds(tile.voxels, table_.clusters(), table_.by_seed_rank());
       PageVector<std::uint32_t> clusters_of =
           grow_clusters(tile.voxels, tile.features, table_.clusters(), seeds, parameters_, scale_);
       if (last) {
         const std::vector<OrphanVoxel> orphans =
             settle_leftovers(tile.voxels, tile.features, table_.clusters(), parameters_, scale_, clusters_of);
-        orphans_.insert(orphans_.end(), orphans.begin(), orphans.end());
+        std::ranges::copy_if(orphans, std::back_inserter(orphans_),
+                             [&](const OrphanVoxel& orphan) { return !lone_[orphan.rank]; });
       }
       table_.add_members(tile.voxels, tile.features, clusters_of);
       for (std::size_t v = 0; v < clusters_of.size(); ++v) {
@@ -91,12 +111,19 @@ class Clustering {
   }
 
   void move_seeds() {
-    walk_.for_each(false, [&](const LoadedTile& tile) {
+    walk_.for_each(TileView::kCore, [&](const LoadedTile& tile) {
       PageVector<std::uint32_t> clusters_of(tile.voxels.size());
       for (std::size_t v = 0; v < clusters_of.size(); ++v) clusters_of[v] = level_.clusters_of[tile.voxels.ranks[v]];
       table_.offer_seeds(tile.voxels, clusters_of);
     });
     table_.move_seeds();
+  }
+
+  void number_lone() {
+    for (std::size_t rank = 0; rank < lone_.size(); ++rank) {
+      if (lone_[rank]) level_.clusters_of[rank] = level_.count + level_.lone++;
+    }
+    level_.count += level_.lone;
   }
 
   /// Groups of leftovers are numbered after the clusters, by the smallest rank in each.
@@ -119,6 +146,7 @@ class Clustering {
   const SupervoxelScale& scale_;
   ProgressSink& progress_;
   merge::ClusterTable table_;
+  std::vector<bool> lone_;  ///< By rank: a seed without neighbours.
   std::vector<OrphanVoxel> orphans_;
   ClusterLevel level_;
 };

@@ -13,9 +13,11 @@ namespace arris::pipeline {
 struct ClusterLevel {
   std::vector<std::uint32_t> clusters_of;  ///< Per voxel by rank: below `count`, or kNoCluster.
   std::uint32_t count = 0;
-  std::vector<ClusterPlane> planes;       ///< Per cluster that grew from a seed; no plane for the others.
+  std::vector<ClusterPlane> planes;       ///< Per cluster that could grow from its seed; no plane for the others.
   std::vector<std::uint32_t> seed_ranks;  ///< Likewise.
-  std::uint32_t groups = 0;               ///< Clusters that grew from no seed; the last ones.
+  std::uint32_t lone = 0;                 ///< Clusters of a seed without neighbours; they come next.
+  std::uint32_t groups = 0;               ///< Clusters without a seed; the last ones.
+  std::uint64_t predicted_bytes = 0;      ///< Peak of what is kept and of tiles.
 };
 
 /// Passes over tiles of voxels: seeds; per iteration growth with sums, then new seeds; growth of the last iteration,

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint64_t kLeastTableBytes = 1024 * 1024;
 constexpr std::uint64_t kMostTableBytes = 64 * 1024 * 1024;
+constexpr std::size_t kBatchPoints = 4 * 1024;
 
 /// The lattice point that the centroid of a voxel lies on or just above.
 LatticePoint centroid_point(const VoxelGrid& grid, const Voxel& voxel) {
@@ -22,16 +23,18 @@ LatticePoint centroid_point(const VoxelGrid& grid, const Voxel& voxel) {
   return {along(0), along(1), along(2)};
 }
 
-/// Calls use(voxels, ranks) for the cores of all tiles.
+/// Calls use(voxel, rank) for the voxels without cluster in the cores of all tiles.
 template <class Use>
-void for_each_core(const tiling::VoxelStore& store, const tiling::TilePlan& tiles, const CancelToken& cancel,
-                   Use&& use) {
-  std::vector<Voxel> voxels;
-  std::vector<std::uint32_t> ranks;
+void for_each_leftover(const tiling::VoxelStore& store, const tiling::TilePlan& tiles,
+                       std::span<const std::uint32_t> clusters_of, const CancelToken& cancel, Use&& use) {
   for (const tiling::PlannedTile& tile : tiles.tiles) {
     cancel.check();
-    store.load(tile.core, voxels, ranks);
-    use(voxels, ranks);
+    store.for_each_stretch(tile.core, [&](std::span<const Voxel> voxels, std::uint32_t rank) {
+      for (const Voxel& voxel : voxels) {
+        if (clusters_of[rank] == kNoCluster && tile.core.contains(voxel.key)) use(voxel, rank);
+        ++rank;
+      }
+    });
   }
 }
 
@@ -57,30 +60,27 @@ tiling::VoxelStore coarser_voxels(const tiling::VoxelStore& store, const tiling:
   tiling::VoxelAccumulator accumulator(VoxelGrid(side_steps), {own_folder, table_bytes, index_bytes});
   std::vector<LatticePoint> points;
   std::vector<RawColour> point_colours;
-  for_each_core(store, tiles, cancel, [&](const std::vector<Voxel>& voxels, const std::vector<std::uint32_t>& ranks) {
+  const auto add = [&] {
+    accumulator.add(points, point_colours);
     points.clear();
     point_colours.clear();
-    for (std::size_t i = 0; i < voxels.size(); ++i) {
-      if (clusters_of[ranks[i]] != kNoCluster) continue;
-      points.push_back(centroid_point(store.grid(), voxels[i]));
-      if (colours) point_colours.push_back(voxels[i].colour);
-    }
-    accumulator.add(points, point_colours);
+  };
+  for_each_leftover(store, tiles, clusters_of, cancel, [&](const Voxel& voxel, std::uint32_t) {
+    points.push_back(centroid_point(store.grid(), voxel));
+    if (colours) point_colours.push_back(voxel.colour);
+    if (points.size() == kBatchPoints) add();
   });
+  add();
   return accumulator.finish();
 }
 
 void inherit_clusters(const tiling::VoxelStore& store, const tiling::TilePlan& tiles, const tiling::VoxelStore& coarse,
                       std::span<const std::uint32_t> coarse_clusters, std::uint32_t first,
                       std::span<std::uint32_t> clusters_of, const CancelToken& cancel) {
-  for_each_core(store, tiles, cancel, [&](const std::vector<Voxel>& voxels, const std::vector<std::uint32_t>& ranks) {
-    std::uint32_t hint = 0;
-    for (std::size_t i = 0; i < voxels.size(); ++i) {
-      std::uint32_t& cluster = clusters_of[ranks[i]];
-      if (cluster != kNoCluster) continue;
-      const LatticePoint key = coarse.grid().voxel_of(centroid_point(store.grid(), voxels[i]));
-      cluster = first + coarse_clusters[coarse.index().rank(key, hint)];
-    }
+  std::uint32_t hint = 0;
+  for_each_leftover(store, tiles, clusters_of, cancel, [&](const Voxel& voxel, std::uint32_t rank) {
+    const LatticePoint key = coarse.grid().voxel_of(centroid_point(store.grid(), voxel));
+    clusters_of[rank] = first + coarse_clusters[coarse.index().rank(key, hint)];
   });
 }
 

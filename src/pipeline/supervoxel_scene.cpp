@@ -1,5 +1,6 @@
 #include "pipeline/supervoxel_scene.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/process_memory.h"
@@ -14,15 +15,16 @@ SupervoxelScene make_supervoxel_scene(io::InputSet& inputs, const tiling::Survey
   const VoxelMemory memory(request.memory_bytes);
   VoxelStageResult voxels = run_voxel_stage(inputs, survey, request.scale, request.parameters.colour, request.folder,
                                             memory, request.threads, progress, cancel);
-  release_free_memory();
+  trim_heap();
   const SupervoxelStageRequest stage{{request.parameters, request.scale, voxels.colours, memory.stage_bytes(),
-                                      request.tile_voxels_cap, request.memory_bytes},
-                                     request.adjacency,
-                                     request.folder};
+                                      request.tile_voxels_cap, request.memory_bytes, request.folder},
+                                     request.adjacency};
   SupervoxelStageResult clusters = run_supervoxel_stage(voxels.store, stage, progress, cancel);
   release_free_memory();
   const std::uint64_t predicted = memory.predicted_peak_bytes(clusters.predicted_bytes);
-  return {std::move(voxels.store), std::move(clusters), voxels.colours, voxels.peak_temp_bytes, predicted};
+  const std::uint64_t peak_temp =
+      std::max(voxels.peak_temp_bytes, voxels.store.bytes_on_disk() + clusters.normals_bytes_on_disk);
+  return {std::move(voxels.store), std::move(clusters), voxels.colours, peak_temp, predicted};
 }
 
 }  // namespace arris::pipeline

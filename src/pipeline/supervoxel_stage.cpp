@@ -37,8 +37,8 @@ ClusterLevel cluster_all(VoxelTileWalk& walk, const SupervoxelStageRequest& requ
   }
   // Half of what is left: the other half is for reading these voxels.
   const std::uint64_t left_bytes = here.memory_bytes > here_bytes ? here.memory_bytes - here_bytes : 0;
-  const tiling::VoxelStore coarse = coarser_voxels(walk.store(), walk.tiles(), level.clusters_of, here.colours,
-                                                   request.folder, left_bytes / 2, cancel);
+  const tiling::VoxelStore coarse =
+      coarser_voxels(walk.store(), walk.tiles(), level.clusters_of, here.colours, here.folder, left_bytes / 2, cancel);
   TileWalkRequest there = here;
   there.scale = coarser(here.scale, here.parameters);
   VoxelTileWalk coarse_walk(coarse, there, progress, cancel);
@@ -48,6 +48,7 @@ ClusterLevel cluster_all(VoxelTileWalk& walk, const SupervoxelStageRequest& requ
                    cancel);
   level.count += coarse_level.count;
   level.groups = coarse_level.groups;
+  level.predicted_bytes = std::max(level.predicted_bytes, coarse_level.predicted_bytes);
   return level;
 }
 
@@ -61,7 +62,8 @@ class Stage {
     ClusterLevel level = cluster_all(walk_, request_, 0, progress_, cancel_);
     result_.tiles = walk_.tiles().tiles.size();
     result_.largest_tile_voxels = walk_.largest_tile_voxels();
-    result_.predicted_bytes = walk_.predicted_bytes();
+    result_.predicted_bytes = level.predicted_bytes;
+    result_.normals_bytes_on_disk = walk_.normals_bytes_on_disk();
     number(level);
     look_at_neighbours(level.seed_ranks);
     return std::move(result_);
@@ -81,7 +83,7 @@ class Stage {
     for (std::size_t cluster = 0; cluster < level.planes.size(); ++cluster)
       result_.planes[id_of[cluster]] = level.planes[cluster];
     result_.groups = level.groups;
-    result_.coarse = level.count - static_cast<std::uint32_t>(level.planes.size());
+    result_.coarse = level.count - static_cast<std::uint32_t>(level.planes.size()) - level.lone;
   }
 
   /// Pairs of neighbours, and voxels that several surfaces share.
@@ -89,7 +91,7 @@ class Stage {
     progress_.phase("neighbours", result_.ids.size());
     result_.shared.assign((result_.ids.size() + 63) / 64, 0);
     auto& pairs = result_.adjacency;
-    walk_.for_each(false, [&](const LoadedTile& tile) {
+    walk_.for_each(TileView::kTouching, [&](const LoadedTile& tile) {
       std::mutex mutex;
       parallel_for_chunks(tile.voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         Pairs found;

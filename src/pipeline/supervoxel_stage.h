@@ -2,7 +2,6 @@
 /// @file Clusters the voxels of a scan to supervoxels.
 
 #include <cstdint>
-#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -17,8 +16,7 @@ namespace arris::pipeline {
 
 struct SupervoxelStageRequest {
   TileWalkRequest walk;
-  bool adjacency = false;        ///< Collect the pairs of neighbours.
-  std::filesystem::path folder;  ///< For coarser voxels.
+  bool adjacency = false;  ///< Collect the pairs of neighbours.
 };
 
 struct SupervoxelStageResult {
@@ -34,6 +32,7 @@ struct SupervoxelStageResult {
   std::uint64_t tiles = 0;
   std::uint64_t largest_tile_voxels = 0;
   std::uint64_t predicted_bytes = 0;  ///< Peak of what the stage keeps.
+  std::uint64_t normals_bytes_on_disk = 0;
 };
 
 /// Supervoxels on the voxels given. Where points lie farther apart than those, no voxel touches another and no seed

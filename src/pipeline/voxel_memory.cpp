@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/pages.h"
 #include "core/process_memory.h"
 #include "core/text.h"
 #include "core/voxel.h"
@@ -30,6 +31,9 @@ constexpr double kRunEntries = 1.35;
 constexpr double kTableEntryBytes = sizeof(tiling::VoxelSums) + tiling::kOrderBytes;
 /// Surfaces cut voxels off-centre: about this many per area of a voxel's face.
 constexpr double kVoxelsPerFace = 1.5;
+/// Neighbours of a voxel of a surface.
+constexpr double kNeighbours = 12.0;
+constexpr double kNormalBytes = 12.0;
 
 /// On top of the least budget that is named: what is resident differs from run to run.
 constexpr std::uint64_t kSpareBytes = 4 * kMiB;
@@ -68,7 +72,7 @@ VoxelMemory::VoxelMemory(std::uint64_t budget_bytes)
 }
 
 std::uint64_t VoxelMemory::stage_bytes() const {
-  before_stage_bytes_ = resident_bytes();
+  before_stage_bytes_ = resident_bytes() - spare_pages_bytes();  // The stage takes those first.
   peak_before_stage_bytes_ = peak_resident_bytes();
   const std::uint64_t taken = before_stage_bytes_ + kPassBytes / 2;
   return usable_bytes_ > taken ? usable_bytes_ - taken : 0;
@@ -84,9 +88,8 @@ std::uint64_t likely_voxels(const tiling::Survey& survey, const SupervoxelScale&
 
 std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
                                          const SupervoxelParameters& parameters, std::uint64_t budget_bytes) {
-  constexpr double kNeighbours = 12.0;  // Of a voxel of a surface.
-  constexpr double kOfVoxels = 0.85;    // The steps that take most are not all at their peak together. Measured.
-  constexpr double kOfBudget = 0.75;    // What is in tiles is not all there at once.
+  constexpr double kOfVoxels = 0.85;  // The steps that take most are not all at their peak together. Measured.
+  constexpr double kOfBudget = 0.75;  // What is in tiles is not all there at once.
   const double voxels = count_of_voxels(survey, scale);
   const double each = supervoxel_bytes_per_voxel(parameters.features, false, kNeighbours);
   const double all =
@@ -107,9 +110,13 @@ std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const Supervox
 std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
                                          const VoxelMemory& memory) {
   const double voxels = count_of_voxels(survey, scale);
+  const auto room = static_cast<double>(memory.table_bytes() + memory.index_bytes());
   const bool runs = voxels * kTableEntryBytes > static_cast<double>(memory.table_bytes());
-  const double each = kStoreBytes + (runs ? kRunEntries * sizeof(tiling::VoxelSums) : 0.0);
-  return static_cast<std::uint64_t>(voxels * each);
+  const bool tiles =
+      voxels * supervoxel_bytes_per_voxel(SupervoxelParameters::Features::kNormal, false, kNeighbours) > room;
+  // Runs are gone when normals of tiles come.
+  const double beside = std::max(runs ? kRunEntries * sizeof(tiling::VoxelSums) : 0.0, tiles ? kNormalBytes : 0.0);
+  return static_cast<std::uint64_t>(voxels * (kStoreBytes + beside));
 }
 
 }  // namespace arris::pipeline

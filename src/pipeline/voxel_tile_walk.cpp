@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
-#include "core/process_memory.h"
+#include "core/pages.h"
 #include "core/text.h"
+#include "features/supervoxel/voxel_normals.h"
 #include "pipeline/voxel_memory.h"
 #include "tiling/voxel_tiles.h"
 
@@ -42,12 +44,15 @@ void VoxelTileWalk::plan(std::uint64_t kept_bytes) {
   tiles.halo_voxels = request_.scale.halo_voxels();
   plan_ = tiling::plan_voxel_tiles(store_.index(), tiles);
   loaded_.reset();
-  predicted_bytes_ = kept_bytes + static_cast<std::uint64_t>(each * static_cast<double>(largest_tile_voxels()));
+  const auto tile_bytes = static_cast<std::uint64_t>(each * static_cast<double>(largest_tile_voxels()));
+  // What larger tiles have left must not be resident beside what is kept now.
+  if (spare_pages_bytes() > tile_bytes) drop_spare_pages();
+  predicted_bytes_ = kept_bytes + tile_bytes;
   require(predicted_bytes_);
 }
 
 void VoxelTileWalk::require(std::uint64_t bytes) const {
-  if (fits(bytes)) return;
+  if (bytes <= request_.memory_bytes) return;
   throw BudgetError(fmt::format(
       "{} voxels and their supervoxels do not fit; run with at least --memory {}, or with larger --voxel or --seed",
       grouped(store_.size()), budget_text(raised_budget_bytes(request_.budget_bytes, bytes - request_.memory_bytes))));
@@ -57,25 +62,44 @@ std::uint64_t VoxelTileWalk::largest_tile_voxels() const {
   return std::min<std::uint64_t>(plan_.largest_covered_points, store_.size());
 }
 
-void VoxelTileWalk::for_each(bool with_features, const std::function<void(const LoadedTile&)>& use) {
+LoadedTile VoxelTileWalk::load(const tiling::PlannedTile& tile, TileView view) const {
+  if (view == TileView::kFeatures || plan_.tiles.size() == 1)
+    return {tiling::load_voxel_tile(store_, tile, request_.colours), {}};
+  tiling::PlannedTile near = tile;
+  near.covered = view == TileView::kCore ? tile.core : tile.core.expanded(1);
+  if (view == TileView::kCore) return {tiling::load_voxels(store_, near, false), {}};
+  return {tiling::load_voxel_tile(store_, near, false), {}};
+}
+
+void VoxelTileWalk::describe(LoadedTile& tile) {
+  PageVector<std::array<float, 3>> normals = normals_known_ ? normals_->read(tile.voxels) : voxel_normals(tile.voxels);
+  if (normals_ && !normals_known_) normals_->append(tile.voxels, normals);
+  tile.features = voxel_features(tile.voxels, std::move(normals), request_.parameters, kFullColour);
+}
+
+void VoxelTileWalk::for_each(TileView view, const std::function<void(const LoadedTile&)>& use) {
+  const bool several = plan_.tiles.size() > 1;
+  const bool first_normals = several && view == TileView::kFeatures && !normals_known_;
+  if (first_normals) normals_.emplace(request_.folder / fmt::format("normals-{}", request_.scale.voxel_steps));
   for (const tiling::PlannedTile& tile : plan_.tiles) {
     cancel_.check();
-    if (plan_.tiles.size() > 1 || !loaded_) {
+    if (several || !loaded_) {
       drop();
-      loaded_.emplace(LoadedTile{tiling::load_voxel_tile(store_, tile, request_.colours), {}});
+      loaded_.emplace(load(tile, view));
     }
-    if (with_features && loaded_->features.normals.empty())
-      loaded_->features = voxel_features(loaded_->voxels, request_.parameters, kFullColour);
+    if (view == TileView::kFeatures && loaded_->features.normals.empty()) describe(*loaded_);
     use(*loaded_);
     progress_.advance(tile.core_points);
   }
-  if (plan_.tiles.size() > 1) drop();
+  if (several) drop();
+  if (!first_normals) return;
+  normals_->finish();
+  normals_known_ = true;
 }
 
 std::uint64_t VoxelTileWalk::drop_features() {
   if (!loaded_) return 0;
   loaded_->features = {};
-  release_free_memory();
   const VoxelTile& tile = loaded_->voxels;
   return tile.size() * (sizeof(LatticePoint) + sizeof(VoxelPosition) + 2 * sizeof(std::uint32_t) + 1) +
          tile.colours.size() * sizeof(RawColour) + tile.neighbours.size() * sizeof(std::uint32_t);
@@ -83,7 +107,6 @@ std::uint64_t VoxelTileWalk::drop_features() {
 
 void VoxelTileWalk::drop() {
   loaded_.reset();
-  release_free_memory();
 }
 
 }  // namespace arris::pipeline

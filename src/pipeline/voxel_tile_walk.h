@@ -2,6 +2,7 @@
 /// @file Goes over the voxels of a scan tile by tile, as often as it takes.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 
@@ -9,13 +10,21 @@
 #include "core/progress.h"
 #include "features/supervoxel/supervoxel_parameters.h"
 #include "features/supervoxel/voxel_features.h"
+#include "tiling/normal_file.h"
 #include "tiling/tile_plan.h"
 #include "tiling/voxel_store.h"
 
 namespace arris::pipeline {
 
+/// What a walk over tiles looks at, from less to more.
+enum class TileView {
+  kCore,      ///< Voxels of the core, without neighbours.
+  kTouching,  ///< Those, their neighbours, and what touches the core.
+  kFeatures,  ///< All that is covered, with neighbours and features.
+};
+
 struct LoadedTile {
-  VoxelTile voxels;
+  VoxelTile voxels;        ///< May be more than was asked for.
   VoxelFeatures features;  ///< Empty unless asked for.
 };
 
@@ -26,9 +35,11 @@ struct TileWalkRequest {
   std::uint64_t memory_bytes = 0;     ///< For tiles and what the caller keeps beside them.
   std::uint64_t tile_voxels_cap = 0;  ///< 0: none.
   std::uint64_t budget_bytes = 0;     ///< --memory, of which memory_bytes are left; for messages.
+  std::filesystem::path folder;       ///< For normals, if there are several tiles, and for coarser voxels.
 };
 
-/// One tile at a time is in memory; a lone one stays there between walks. Not thread-safe.
+/// One tile at a time is in memory; a lone one stays there between walks. Of several, normals are computed once and
+/// kept on disk. Not thread-safe.
 class VoxelTileWalk {
  public:
   VoxelTileWalk(const tiling::VoxelStore& store, const TileWalkRequest& request, ProgressSink& progress,
@@ -40,13 +51,13 @@ class VoxelTileWalk {
 
   /// Cuts tiles (again). @param kept_bytes  what the caller keeps. Throws BudgetError if that and a tile do not fit.
   void plan(std::uint64_t kept_bytes);
-  bool fits(std::uint64_t bytes) const { return bytes <= request_.memory_bytes; }
   const tiling::TilePlan& tiles() const { return plan_; }
   std::uint64_t predicted_bytes() const { return predicted_bytes_; }
   std::uint64_t largest_tile_voxels() const;
+  std::uint64_t normals_bytes_on_disk() const { return normals_ ? normals_->size_bytes() : 0; }
 
   /// Calls use(tile) for every tile.
-  void for_each(bool with_features, const std::function<void(const LoadedTile&)>& use);
+  void for_each(TileView view, const std::function<void(const LoadedTile&)>& use);
   void drop();  ///< Frees the tile that is kept, if any.
   /// Frees its features only. Returns the bytes that stay in memory; 0 if no tile is kept.
   std::uint64_t drop_features();
@@ -54,6 +65,8 @@ class VoxelTileWalk {
  private:
   /// Throws BudgetError if so much does not fit.
   void require(std::uint64_t bytes) const;
+  LoadedTile load(const tiling::PlannedTile& tile, TileView view) const;
+  void describe(LoadedTile& tile);
 
   const tiling::VoxelStore& store_;
   TileWalkRequest request_;
@@ -61,6 +74,8 @@ class VoxelTileWalk {
   const CancelToken& cancel_;
   tiling::TilePlan plan_;
   std::optional<LoadedTile> loaded_;
+  std::optional<tiling::NormalFile> normals_;  ///< While it is written, or complete.
+  bool normals_known_ = false;
   std::uint64_t predicted_bytes_ = 0;
 };
 

@@ -11,7 +11,6 @@ namespace arris::tiling {
 namespace {
 
 constexpr std::size_t kGrain = 128;  // Blocks.
-constexpr std::size_t kChunks = 64;  // Worked on before their lists are put together.
 constexpr int kSide = VoxelIndex::kBlockSide;
 constexpr int kCube = kSide + 2;
 constexpr int kAround = 27;
@@ -66,7 +65,8 @@ void for_each_bit(Word word, Use&& use) {
 }
 
 /// A block with one layer of voxels around it. Which cells hold voxels is known by bits, so that nothing is asked of
-/// those that do not; ranks are there only where a bit says so.
+/// those that do not; ranks are there only where a bit says so, and only if they are asked for.
+template <bool kRanks>
 class Cube {
  public:
   explicit Cube(const VoxelIndex& index) : index_(index) {}
@@ -106,7 +106,7 @@ class Cube {
       for_each_bit(voxels.bits & touching, [&](std::uint32_t bit) {
         const int cell = first + kCells[part * kPartPlaces + bit];
         rows_[static_cast<std::size_t>(cell / kCube)] |= static_cast<std::uint16_t>(1U << cell % kCube);
-        ranks_[static_cast<std::size_t>(cell)] = voxels.rank(bit);
+        if constexpr (kRanks) ranks_[static_cast<std::size_t>(cell)] = voxels.rank(bit);
       });
     }
   }
@@ -141,23 +141,24 @@ class Cube {
   std::array<std::uint32_t, kCube * kCube * kCube> ranks_{};  // Per cell.
 };
 
-/// Neighbours of the voxels of some blocks, and how many each has, in counts[voxel + 1].
-void list_neighbours(const VoxelIndex& index, std::size_t begin, std::size_t end, PageVector<std::uint32_t>& list,
-                     PageVector<std::uint32_t>& counts) {
-  list.clear();
-  Cube cube(index);
+/// How many neighbours the voxels of some blocks have, in counts[rank].
+void count_neighbours(const VoxelIndex& index, std::size_t begin, std::size_t end, std::uint32_t* counts) {
+  Cube<false> cube(index);
   for (std::size_t block = begin; block < end; ++block) {
     cube.load(block);
-    const VoxelIndex::Block own = index.block(block);
-    std::size_t used = list.size();
-    list.resize(used + std::size_t{own.voxels} * (kAround - 1));
-    std::uint32_t* count = counts.data() + own.first_rank;
+    std::uint32_t* count = counts + index.block(block).first_rank;
+    cube.for_each_voxel(block, [&](std::uint32_t around, int) { *count++ = VoxelIndex::ones(around); });
+  }
+}
+
+/// Those neighbours, from `list` on.
+void list_neighbours(const VoxelIndex& index, std::size_t begin, std::size_t end, std::uint32_t* list) {
+  Cube<true> cube(index);
+  for (std::size_t block = begin; block < end; ++block) {
+    cube.load(block);
     cube.for_each_voxel(block, [&](std::uint32_t around, int cell) {
-      const std::size_t before = used;
-      for_each_bit(around, [&](std::uint32_t i) { list[used++] = cube.rank(cell + kOffsets[i]); });
-      *++count = static_cast<std::uint32_t>(used - before);
+      for_each_bit(around, [&](std::uint32_t i) { *list++ = cube.rank(cell + kOffsets[i]); });
     });
-    list.resize(used);
   }
 }
 
@@ -166,22 +167,15 @@ void list_neighbours(const VoxelIndex& index, std::size_t begin, std::size_t end
 void link_neighbours(VoxelTile& tile, const VoxelIndex& index) {
   tile.neighbour_begin.resize(tile.size() + 1);
   tile.neighbour_begin[0] = 0;
-  tile.neighbours.clear();
-  const std::size_t blocks = index.blocks();
-  std::vector<PageVector<std::uint32_t>> lists(std::min(kChunks, (blocks + kGrain - 1) / kGrain));
-  for (std::size_t first = 0; first < blocks; first += kChunks * kGrain) {
-    const std::size_t count = std::min(kChunks * kGrain, blocks - first);
-    parallel_for_chunks(count, kGrain, [&](std::size_t begin, std::size_t end) {
-      list_neighbours(index, first + begin, first + end, lists[begin / kGrain], tile.neighbour_begin);
-    });
-    for (std::size_t chunk = 0; chunk * kGrain < count; ++chunk)
-      tile.neighbours.insert(tile.neighbours.end(), lists[chunk].begin(), lists[chunk].end());
-    if (first > 0) continue;
-    const std::size_t after = first + count;
-    const std::size_t voxels = after < blocks ? index.block(after).first_rank : tile.size();
-    tile.neighbours.reserve(tile.neighbours.size() * tile.size() / voxels * 5 / 4);
-  }
+  parallel_for_chunks(index.blocks(), kGrain, [&](std::size_t begin, std::size_t end) {
+    count_neighbours(index, begin, end, tile.neighbour_begin.data() + 1);
+  });
+  // Known before they are listed: nothing is moved, and no more memory is taken than they fill.
   for (std::size_t v = 0; v < tile.size(); ++v) tile.neighbour_begin[v + 1] += tile.neighbour_begin[v];
+  tile.neighbours.resize(tile.neighbour_begin.back());
+  parallel_for_chunks(index.blocks(), kGrain, [&](std::size_t begin, std::size_t end) {
+    list_neighbours(index, begin, end, tile.neighbours.data() + tile.neighbour_begin[index.block(begin).first_rank]);
+  });
 }
 
 }  // namespace arris::tiling

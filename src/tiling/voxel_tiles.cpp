@@ -43,7 +43,7 @@ TilePlan plan_voxel_tiles(const VoxelIndex& index, const VoxelPlanRequest& reque
   return tiles;
 }
 
-VoxelTile load_voxel_tile(const VoxelStore& store, const PlannedTile& planned, bool colours) {
+VoxelTile load_voxels(const VoxelStore& store, const PlannedTile& planned, bool colours) {
   VoxelTile tile(store.grid());
   const std::size_t most = store.most_voxels(planned.covered);
   tile.keys.reserve(most);
@@ -72,6 +72,11 @@ VoxelTile load_voxel_tile(const VoxelStore& store, const PlannedTile& planned, b
       ++rank;
     }
   });
+  return tile;
+}
+
+VoxelTile load_voxel_tile(const VoxelStore& store, const PlannedTile& planned, bool colours) {
+  VoxelTile tile = load_voxels(store, planned, colours);
   if (tile.size() == store.size()) {
     link_neighbours(tile, store.index());
   } else {

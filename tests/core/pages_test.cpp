@@ -3,28 +3,72 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstring>
 #include <random>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "core/process_memory.h"
 
 namespace arris {
 namespace {
 
 constexpr std::size_t kMiB = std::size_t{1} << 20;
 
+void* take_written(std::size_t size_bytes) {
+  void* const pages = take_pages(size_bytes);
+  std::memset(pages, 1, size_bytes);
+  return pages;
+}
+
 TEST(Pages, WhatIsReturned_IsTakenAgain) {
   drop_spare_pages();
-  void* const first = take_pages(8 * kMiB);
-  return_pages(first, 8 * kMiB);
-  void* const again = take_pages(3 * kMiB);
+  void* const first = take_written(10 * kMiB);
+  return_pages(first, 10 * kMiB);
+  void* const again = take_pages(5 * kMiB);
   EXPECT_EQ(again, first);
   void* const rest = take_pages(4 * kMiB);
-  EXPECT_GT(rest, first);
-  EXPECT_LE(static_cast<char*>(rest) + 4 * kMiB, static_cast<char*>(first) + 8 * kMiB);
-  return_pages(again, 3 * kMiB);
+  EXPECT_EQ(rest, static_cast<char*>(first) + 6 * kMiB);  // Begins at a large page of 2 MiB.
+  return_pages(again, 5 * kMiB);
   return_pages(rest, 4 * kMiB);
+  EXPECT_EQ(take_pages(10 * kMiB), first);  // What touches is one again.
+  return_pages(first, 10 * kMiB);
+  drop_spare_pages();
+  EXPECT_EQ(spare_pages_bytes(), 0U);
+}
+
+TEST(Pages, WhatWasNeverWritten_IsNotKept) {
+  drop_spare_pages();
+  void* const pages = take_pages(64 * kMiB);
+  std::memset(pages, 1, 5 * kMiB);
+  return_pages(pages, 64 * kMiB);
+  EXPECT_GE(spare_pages_bytes(), 5 * kMiB);
+  EXPECT_LE(spare_pages_bytes(), 6 * kMiB);
+  drop_spare_pages();
+}
+
+TEST(Pages, StretchesTooShort_AreGathered) {
+  drop_spare_pages();
+  std::array<void*, 6> blocks;
+  for (void*& block : blocks) block = take_written(8 * kMiB);
+  for (std::size_t i = 0; i < blocks.size(); i += 2) return_pages(blocks[i], 8 * kMiB);
+  EXPECT_EQ(spare_pages_bytes(), 24 * kMiB);
+  const std::uint64_t before = resident_bytes();
+  void* const gathered = take_written(24 * kMiB);
+  EXPECT_EQ(spare_pages_bytes(), 0U);
+  EXPECT_LT(resident_bytes(), before + 4 * kMiB);
+  void* const longer = take_written(16 * kMiB);  // Nothing is left: fresh.
+  return_pages(gathered, 24 * kMiB);
+  return_pages(longer, 16 * kMiB);
+  void* const all = take_written(44 * kMiB);
+  return_pages(all, 44 * kMiB);
+  for (std::size_t i = 1; i < blocks.size(); i += 2) {
+    EXPECT_EQ(static_cast<char*>(blocks[i])[8 * kMiB - 1], 1);
+    return_pages(blocks[i], 8 * kMiB);
+  }
   drop_spare_pages();
 }
 

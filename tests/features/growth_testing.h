@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "features/supervoxel/cluster_growth.h"
+#include "features/supervoxel/voxel_normals.h"
 #include "voxel_tile_testing.h"
 
 namespace arris::test {
@@ -36,7 +37,7 @@ inline GrowthScene growth_scene(SupervoxelParameters::Features kind, bool colour
                     {},
                     {}};
   scene.parameters.features = kind;
-  scene.features = voxel_features(scene.tile, scene.parameters, 65535.0);
+  scene.features = voxel_features(scene.tile, voxel_normals(scene.tile), scene.parameters, 65535.0);
   scene.scale.voxel_steps = kVoxel;
   scene.scale.seed_steps = kVoxel * static_cast<std::int64_t>(2 + random() % 6);
   scene.scale.levels = static_cast<int>(1 + random() % 9);

@@ -45,8 +45,9 @@ class SupervoxelStage : public ::testing::Test {
 
   SupervoxelStageResult cluster(Features features, std::uint64_t cap = 0, std::uint64_t memory = kMuch) {
     parameters_.features = features;
-    return run_supervoxel_stage(
-        voxels_->store, {{parameters_, scale_, voxels_->colours, memory, cap}, true, folder_.path()}, sink_, cancel_);
+    return run_supervoxel_stage(voxels_->store,
+                                {{parameters_, scale_, voxels_->colours, memory, cap, 0, folder_.path()}, true}, sink_,
+                                cancel_);
   }
 
   std::vector<LatticePoint> positions() const {

@@ -1,5 +1,6 @@
 #include "features/supervoxel/cluster_growth.h"
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <mutex>
@@ -10,7 +11,8 @@
 namespace arris {
 namespace {
 
-constexpr std::size_t kGrain = 1024;
+constexpr std::size_t kGrain = 1024;             // Of the frontier.
+constexpr std::size_t kSweepGrain = 128 * 1024;  // Of all voxels.
 constexpr std::uint64_t kFree = ~std::uint64_t{0};
 
 /// Distances are not negative, so their bits sort as they do: the smaller offer is the smaller number.
@@ -45,8 +47,12 @@ template <class Distance>
 class Growth {
  public:
   Growth(const VoxelTile& tile, const Distance& distance) : tile_(tile), distance_(distance) {
-    state_.assign(tile.size(), kFree);
-    touched_.assign(tile.size(), 0);
+    state_.resize(tile.size());
+    touched_.resize(tile.size());
+    parallel_for_chunks(tile.size(), kSweepGrain, [&](std::size_t begin, std::size_t end) {
+      std::fill(state_.begin() + begin, state_.begin() + end, kFree);
+      std::fill(touched_.begin() + begin, touched_.begin() + end, std::uint8_t{0});
+    });
   }
 
   void seed(std::span<const TileSeed> seeds) {
@@ -70,18 +76,22 @@ class Growth {
         won_.insert(won_.end(), mine.begin(), mine.end());
       });
     }
-    frontier_.clear();
-    for (const std::uint32_t voxel : won_) {
-      frontier_.push_back({voxel, cluster_of(state_[voxel])});
-      touched_[voxel] = 0;
-    }
+    frontier_.resize(won_.size());
+    parallel_for_chunks(won_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        frontier_[i] = {won_[i], cluster_of(state_[won_[i]])};
+        touched_[won_[i]] = 0;
+      }
+    });
   }
 
   bool done() const { return frontier_.empty(); }
 
   PageVector<std::uint32_t> clusters() const {
     PageVector<std::uint32_t> result(state_.size());
-    for (std::size_t v = 0; v < result.size(); ++v) result[v] = cluster_of(state_[v]);
+    parallel_for_chunks(result.size(), kSweepGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) result[v] = cluster_of(state_[v]);
+    });
     return result;
   }
 

@@ -1,14 +1,19 @@
 #include "features/supervoxel/seed_cells.h"
 
 #include <algorithm>
+#include <mutex>
 #include <unordered_map>
 #include <utility>
+
+#include "core/parallel.h"
 
 namespace arris {
 namespace {
 
 /// Seeds of neighbouring cells are not nearer than this share of R_seed.
 constexpr double kLeastSeedDistance = 1.0 / 3.0;
+constexpr std::size_t kGrain = 64 * 1024;  // Voxels.
+constexpr std::size_t kCellGrain = 512;
 
 std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
   const std::int64_t q = a / b;
@@ -95,12 +100,12 @@ struct CellSeed {
 };
 using CellSeeds = std::unordered_map<LatticePoint, CellSeed, CellHash>;
 
-CellSeeds best_of_cells(const VoxelTile& tile, const SupervoxelScale& scale) {
+CellSeeds best_of_cells(const VoxelTile& tile, const SupervoxelScale& scale, std::uint32_t begin, std::uint32_t end) {
   CellSeeds cells;
   LatticePoint cell;
   LatticeBox keys;  // Of the cell.
   CellSeed* last = nullptr;
-  for (std::uint32_t v = 0; v < tile.size(); ++v) {
+  for (std::uint32_t v = begin; v < end; ++v) {
     if (!keys.contains(tile.keys[v])) {  // In Z-order the next voxel mostly lies in the same cell.
       cell = seed_cell(tile.keys[v], scale);
       keys = keys_of(cell, scale);
@@ -109,7 +114,21 @@ CellSeeds best_of_cells(const VoxelTile& tile, const SupervoxelScale& scale) {
     const std::uint64_t distance2 = squared_from_middle(tile, v, cell, scale);
     if (distance2 < last->distance2) *last = {distance2, v, false};
   }
-  for (auto& [of, seed] : cells) seed.supported = supported(tile, seed.voxel, scale);
+  return cells;
+}
+
+CellSeeds best_of_cells(const VoxelTile& tile, const SupervoxelScale& scale) {
+  CellSeeds cells;
+  std::mutex mutex;
+  parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    CellSeeds some = best_of_cells(tile, scale, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
+    const std::lock_guard lock(mutex);
+    cells.merge(some);
+    for (const auto& [cell, seed] : some) {  // Those of cells that others have, too. Ties: the first voxel.
+      CellSeed& best = cells[cell];
+      if (std::pair(seed.distance2, seed.voxel) < std::pair(best.distance2, best.voxel)) best = seed;
+    }
+  });
   return cells;
 }
 
@@ -130,14 +149,27 @@ bool crowded_out(const VoxelTile& tile, const CellSeeds& cells, const LatticePoi
 }  // namespace
 
 std::vector<Seed> find_seeds(const VoxelTile& tile, const SupervoxelScale& scale) {
-  const CellSeeds cells = best_of_cells(tile, scale);
+  CellSeeds cells = best_of_cells(tile, scale);
+  std::vector<CellSeeds::value_type*> all;
+  all.reserve(cells.size());
+  for (auto& cell : cells) all.push_back(&cell);
+  parallel_for_chunks(all.size(), kCellGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) all[i]->second.supported = supported(tile, all[i]->second.voxel, scale);
+  });
   const double least_distance =
       kLeastSeedDistance * static_cast<double>(kVoxelFractions) * static_cast<double>(scale.seed_steps);
   std::vector<Seed> seeds;
-  for (const auto& [cell, seed] : cells) {
-    if (tile.core[seed.voxel] == 0 || !seed.supported) continue;
-    if (!crowded_out(tile, cells, cell, seed, least_distance)) seeds.push_back({cell, seed.voxel});
-  }
+  std::mutex mutex;
+  parallel_for_chunks(all.size(), kCellGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<Seed> found;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [cell, seed] = *all[i];
+      if (tile.core[seed.voxel] == 0 || !seed.supported) continue;
+      if (!crowded_out(tile, cells, cell, seed, least_distance)) found.push_back({cell, seed.voxel});
+    }
+    const std::lock_guard lock(mutex);
+    seeds.insert(seeds.end(), found.begin(), found.end());
+  });
   std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) { return a.cell < b.cell; });
   return seeds;
 }

@@ -1,17 +1,18 @@
 #include "features/supervoxel/voxel_features.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/parallel.h"
 #include "features/supervoxel/cie_lab.h"
-#include "features/supervoxel/voxel_normals.h"
 
 namespace arris {
 
-VoxelFeatures voxel_features(const VoxelTile& tile, const SupervoxelParameters& parameters, double full_colour) {
+VoxelFeatures voxel_features(const VoxelTile& tile, PageVector<std::array<float, 3>> normals,
+                             const SupervoxelParameters& parameters, double full_colour) {
   const bool fpfh = parameters.features == SupervoxelParameters::Features::kFpfh;
   VoxelFeatures features;
-  features.normals = voxel_normals(tile);
+  features.normals = std::move(normals);
   if (fpfh) features.histograms = feature_histograms(tile, features.normals);
   features.colours.resize(tile.colours.size());
   parallel_for_chunks(tile.colours.size(), 16 * 1024, [&](std::size_t begin, std::size_t end) {

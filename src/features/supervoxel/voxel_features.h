@@ -18,8 +18,10 @@ struct VoxelFeatures {
   PageVector<FeatureHistogram> histograms;   ///< kFpfh only.
 };
 
+/// @param normals      voxel_normals() of the tile.
 /// @param full_colour  raw channel value that stands for full intensity (255 or 65535).
-VoxelFeatures voxel_features(const VoxelTile& tile, const SupervoxelParameters& parameters, double full_colour);
+VoxelFeatures voxel_features(const VoxelTile& tile, PageVector<std::array<float, 3>> normals,
+                             const SupervoxelParameters& parameters, double full_colour);
 
 /// Peak bytes per voxel of a tile while it is loaded, described and grown; for predictions.
 /// @param neighbours  existing neighbours of a voxel on average, 0 to 26.

@@ -1,7 +1,5 @@
 #include "features/supervoxel/voxel_normals.h"
 
-#include <numeric>
-
 #include "core/parallel.h"
 #include "features/supervoxel/voxel_windows.h"
 
@@ -21,23 +19,25 @@ float misfit(const VoxelTile& tile, const PageVector<WindowPlane>& planes, std::
   return plane.misfit + distance * distance;
 }
 
-/// For each voxel the one, among `choice` of itself and of its neighbours, whose window fits best; ties: the first.
+/// For each voxel the one, among choice(v) of itself and of its neighbours, whose window fits best; ties: the first.
 /// What fits well is kept.
+template <class Choice>
 PageVector<std::uint32_t> better_windows(const VoxelTile& tile, const PageVector<WindowPlane>& planes,
-                                         const PageVector<std::uint32_t>& choice) {
+                                         const Choice& choice) {
   const float per_side = per_voxel_side(tile);
   PageVector<std::uint32_t> best(tile.size());
   parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      best[v] = choice[v];
-      float least = misfit(tile, planes, v, choice[v], per_side);
+      best[v] = choice(static_cast<std::uint32_t>(v));
+      float least = misfit(tile, planes, v, best[v], per_side);
       if (least <= kFlatMisfit) continue;
       for (const std::uint32_t u : tile.neighbours_of(v)) {
-        if (choice[u] == best[v]) continue;
-        const float other = misfit(tile, planes, v, choice[u], per_side);
+        const std::uint32_t window = choice(u);
+        if (window == best[v]) continue;
+        const float other = misfit(tile, planes, v, window, per_side);
         if (other < least) {
           least = other;
-          best[v] = choice[u];
+          best[v] = window;
         }
       }
     }
@@ -49,11 +49,13 @@ PageVector<std::uint32_t> better_windows(const VoxelTile& tile, const PageVector
 
 PageVector<std::array<float, 3>> voxel_normals(const VoxelTile& tile) {
   const PageVector<WindowPlane> planes = window_planes(tile);
-  PageVector<std::uint32_t> choice(tile.size());
-  std::iota(choice.begin(), choice.end(), 0U);
-  for (int ring = 0; ring < kWindowRings; ++ring) choice = better_windows(tile, planes, choice);
+  PageVector<std::uint32_t> chosen = better_windows(tile, planes, [](std::uint32_t v) { return v; });
+  for (int ring = 1; ring < kWindowRings; ++ring)
+    chosen = better_windows(tile, planes, [&](std::uint32_t v) { return chosen[v]; });
   PageVector<std::array<float, 3>> normals(tile.size());
-  for (std::size_t v = 0; v < tile.size(); ++v) normals[v] = planes[choice[v]].normal;
+  parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) normals[v] = planes[chosen[v]].normal;
+  });
   return normals;
 }
 
