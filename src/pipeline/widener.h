@@ -2,7 +2,6 @@
 /// @file Answers queries that need a wider view than their tiles had.
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,9 +29,7 @@ class Widener {
   void answer_among(const NearbyPoints& all, std::span<const UnprovenQuery> queries);
   void answer_alone(const UnprovenQuery& query);
   void analyse(TilePoints&& points, std::span<const UnprovenQuery> queries);
-  /// Calls taken() with the points in reach of the queries, tile by tile in order; false as soon as it says no.
-  bool gather(std::span<const UnprovenQuery> queries, const std::function<bool(tiling::SortedPoints& some)>& taken);
-  std::uint64_t count(std::span<const UnprovenQuery> queries);
+  std::uint64_t count_around(const UnprovenQuery& query) const;
   /// The points in reach of the queries, or nothing if there are more than that.
   std::optional<NearbyPoints> read(std::span<const UnprovenQuery> queries, std::uint64_t most_points);
 
