@@ -29,6 +29,7 @@ JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, Progress
                    const CancelToken& cancel) {
   JobPlan plan;
   plan.memory_request = {request.memory_bytes, request.threads};
+  plan.memory_request.method.per_point = contour_bytes_per_point(request.method);
   plan.memory = plan_memory(plan.memory_request);
   plan.survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
   refuse_missing_classes(request, plan.survey);

@@ -9,7 +9,7 @@ namespace arris::pipeline {
 
 /// What analysing a tile takes beyond the tile itself.
 struct MethodBytes {
-  double per_point = kContourBytesPerPoint;
+  double per_point = 0.0;
   double per_thread = kContourBytesPerThread;
   /// Of its bound, what is likely to be resident of a tile while another one is at its peak.
   double beside_another = 0.6;

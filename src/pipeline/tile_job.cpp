@@ -43,7 +43,7 @@ std::uint64_t likely_peak_bytes(const TileJob& job) {
   for (const tiling::PlannedTile& tile : job.tiles.tiles) points.push_back(tile.covered_points);
   const std::size_t most = std::min(points.size(), static_cast<std::size_t>(job.memory.tile_workers));
   std::partial_sort(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(most), points.end(), std::greater<>());
-  double tiles = 0.0;
+  double tiles = static_cast<double>(job.memory.scratch_bytes);
   for (std::size_t i = 0; i < most; ++i)
     tiles += (i == 0 ? 1.0 : job.memory.method.beside_another) * kOfTile *
              static_cast<double>(job.memory.tile_bytes(points[i]));
@@ -97,8 +97,13 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, io::InputSet& inputs, c
                kTileFileLikelyBytes / static_cast<double>(std::max<std::size_t>(job.tiles.tiles.size(), 1)));
   const double most_stored = points * job.tiles.duplication;
   const double likely_stored = points * (1.0 + (job.tiles.duplication - 1.0) * needs.halo_fill);
+  // Files that go at once when their tile is analysed are there together only where several tiles are in flight.
+  const double beside_one = needs.whole_halo ? (job.memory.tile_workers - 1) * likely_stored * kTileFileLikelyBytes /
+                                                   static_cast<double>(std::max<std::size_t>(job.tiles.tiles.size(), 1))
+                                             : 0.0;
   job.predicted_temp_bytes =
-      bytes(likely_stored, likely_bytes, needs.likely_result_bytes_per_point, kLikelyBytesPerTile);
+      bytes(likely_stored, likely_bytes, needs.likely_result_bytes_per_point, kLikelyBytesPerTile) +
+      static_cast<std::uint64_t>(beside_one);
   check_temp_space(bytes(most_stored, needs.stored_bytes_per_point + kTileFileBytesPerPoint,
                          needs.most_result_bytes_per_point, kMostBytesPerTile),
                    request, progress);

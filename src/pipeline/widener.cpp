@@ -58,10 +58,10 @@ std::vector<UnprovenQuery> Widener::answer(std::span<const UnprovenQuery> querie
   return std::move(farther_);
 }
 
-/// A quarter of the memory holds what is around the queries, half what is analysed of it; tiles are not all at their
-/// peak together, so they did not take all of it either.
+/// A fifth of the memory holds what is around the queries, half what is analysed of it, the rest what is on its way from
+/// one to the other.
 void Widener::look_around(std::span<const UnprovenQuery> queries) {
-  std::optional<NearbyPoints> points = read(queries, group_bytes_ / 4 / NearbyPoints::kBytesPerPoint);
+  std::optional<NearbyPoints> points = read(queries, group_bytes_ / 5 / NearbyPoints::kBytesPerPoint);
   if (points) {
     std::vector<UnprovenQuery> compact(queries.begin(), queries.end());
     sort_by_place(compact);
@@ -141,8 +141,8 @@ std::optional<NearbyPoints> Widener::read(std::span<const UnprovenQuery> queries
   for (std::size_t tile = 0; tile < job_.tiles.tiles.size(); ++tile) {
     if (regions.touches(job_.tiles.tiles[tile].core)) touched.push_back(tile);
   }
-  // Loading takes less than half of what analysing took.
-  const auto lanes = static_cast<std::size_t>(std::min(loop_threads(), 2 * job_.memory.tile_workers));
+  const std::uint64_t at_once = group_bytes_ / 5 * 4 / tiling::load_bytes(job_.tiles.largest_covered_points);
+  const auto lanes = static_cast<std::size_t>(std::clamp<std::uint64_t>(at_once, 1, loop_threads()));
   std::vector<tiling::SortedPoints> loaded(touched.size());
   std::atomic<std::size_t> next{0};
   std::atomic<std::uint64_t> points{0};

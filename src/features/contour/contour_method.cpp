@@ -10,8 +10,19 @@ namespace arris {
 
 using Method = ContourParameters::Method;
 
-const double kContourBytesPerPoint = std::max({kArrisBytesPerPoint, kLiuBytesPerPoint, kZhengBytesPerPoint});
 const double kContourBytesPerThread = std::max({kArrisBytesPerThread, kLiuBytesPerThread, kZhengBytesPerThread});
+
+double contour_bytes_per_point(const ContourParameters& parameters) {
+  switch (parameters.method) {
+    case Method::kArris:
+      return kArrisBytesPerPoint;
+    case Method::kLiu:
+      return kLiuBytesPerPoint;
+    case Method::kZheng:
+      break;
+  }
+  return kZhengBytesPerPoint;
+}
 
 std::string_view ContourParameters::name() const {
   return method == Method::kArris ? "arris" : method == Method::kLiu ? "liu" : "zheng";

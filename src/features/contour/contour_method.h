@@ -50,8 +50,9 @@ double contour_halo(const ContourParameters& parameters, double spacing);
 /// contour.
 void finish_record(ContourRecord& record, const ContourParameters& parameters);
 
-/// Bytes beyond the tile itself, for predictions, whatever the method.
-extern const double kContourBytesPerPoint;
+/// Bytes beyond the tile itself, for predictions.
+double contour_bytes_per_point(const ContourParameters& parameters);
+/// Whatever the method.
 extern const double kContourBytesPerThread;
 
 }  // namespace arris

@@ -10,7 +10,7 @@ namespace arris {
 
 /// The tree and the labels in its order (31), building it (16), and found points and records (104 each) of scans that
 /// are contours in one point of seven at most.
-const double kZhengBytesPerPoint = 64.0;
+const double kZhengBytesPerPoint = 60.0;
 const double kZhengBytesPerThread = 4.0 * 1024 * 1024;
 
 TileContours extract_zheng(const TilePoints& tile, std::span<const std::uint32_t> labels, const SupervoxelTable& table,
