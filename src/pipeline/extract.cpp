@@ -33,15 +33,15 @@ struct LabelledScene {
 std::unique_ptr<const LabelledScene> label_scene(io::InputSet& inputs, const JobPlan& plan,
                                                  const ExtractRequest& request, const std::filesystem::path& folder,
                                                  ProgressSink& progress, const CancelToken& cancel) {
-  auto labelled = std::make_unique<LabelledScene>(
-      LabelledScene{make_supervoxel_scene(inputs, plan.survey,
-                                          {plan.method.supervoxel, plan.scale, request.memory_bytes,
-                                           request.tile_points_cap, request.threads, true, folder},
-                                          progress, cancel),
-                    {}});
+  auto labelled = std::make_unique<LabelledScene>(LabelledScene{
+      make_supervoxel_scene(
+          inputs, plan.survey,
+          {plan.method.supervoxel, plan.scale, request.memory_bytes, request.tile_points_cap, true, folder}, progress,
+          cancel),
+      {}});
   merge::SupervoxelMoments moments(labelled->scene.clusters.count, kReachCells * plan.scale.seed_steps);
   const tiling::LatticeMapper mapper(inputs.sources(), plan.survey.lattice);
-  sum_moments(inputs, {mapper, labelled->scene.labels(), request.threads, progress, cancel}, moments);
+  sum_moments(inputs, {mapper, labelled->scene.labels(), progress, cancel}, moments);
   labelled->table = moments.table(labelled->scene.clusters.adjacency);
   labelled->scene.clusters.adjacency = {};
   return labelled;

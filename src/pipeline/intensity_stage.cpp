@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "io/attribute_reader.h"
+#include "pipeline/batch_pass.h"
 
 namespace arris::pipeline {
 namespace {
@@ -60,23 +61,17 @@ class IntensityPasses {
 
   /// Calls visit(group, batch) with the intensities of each batch in values_.
   void pass(const char* name, const std::function<void(std::size_t group, const io::PointBatch& batch)>& visit) {
-    progress_.phase(name, inputs_.points());
-    inputs_.rewind();
     std::unique_ptr<io::AttributeReader> reader;
     std::size_t open_index = 0;
     io::ReadOptions options;
     options.records = true;
     options.batch_points = 16 * 1024;  // What is read stays in the cache.
-    io::PointBatch batch;
-    while (inputs_.read(batch, options)) {
-      cancel_.check();
-      const std::size_t index = inputs_.source_index();
-      if (!reader || index != open_index) reader = open(inputs_.sources()[index]);
-      open_index = index;
+    for_each_batch(inputs_, options, name, progress_, cancel_, [&](std::size_t source, const io::PointBatch& batch) {
+      if (!reader || source != open_index) reader = open(inputs_.sources()[source]);
+      open_index = source;
       reader->read(batch, 0, values_);
-      visit(group(inputs_.sources()[index].format), batch);
-      progress_.advance(batch.count);
-    }
+      visit(group(inputs_.sources()[source].format), batch);
+    });
   }
 
   void store_bytes(const IntensityScale& scale, const io::PointBatch& batch) {

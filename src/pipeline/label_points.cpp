@@ -2,10 +2,10 @@
 
 #include <functional>
 #include <numeric>
-#include <optional>
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/read_ahead.h"
 #include "tiling/survey.h"
 
 namespace arris::pipeline {
@@ -20,21 +20,14 @@ struct LabelledBatch {
   std::vector<std::uint32_t> ids;  ///< 0 for points that take no part.
 };
 
-/// Calls use(labelled batch) for all points in order; with more than one thread on another one, while the next batch is
-/// read.
+/// Calls use(labelled batch) for all points in order, while the next batch is read and labelled.
 void for_each_labelled_batch(io::InputSet& inputs, const LabelPass& pass, bool records,
                              const std::function<void(const LabelledBatch&)>& use) {
   io::ReadOptions options;
   options.records = records;
   std::vector<tiling::Mapped> outcome;
-  LabelledBatch buffers[2];
-  // Declared last: it is joined before anything that its task uses goes.
-  std::optional<BackgroundTasks> other_thread;
-  if (pass.threads > 1) other_thread.emplace(1);
-  inputs.rewind();
-  for (std::size_t turn = 0; inputs.read(buffers[turn].batch, options); turn ^= 1) {
-    pass.cancel.check();
-    LabelledBatch& points = buffers[turn];
+  const auto fill = [&](LabelledBatch& points) {
+    if (!inputs.read(points.batch, options)) return false;
     points.source = inputs.source_index();
     pass.mapper.map(points.batch, points.source, points.positions, outcome);
     points.ids.assign(points.batch.count, 0);
@@ -47,15 +40,14 @@ void for_each_labelled_batch(io::InputSet& inputs, const LabelPass& pass, bool r
           throw InputError("the inputs changed while they were read; run again when they are complete");
       }
     });
-    if (other_thread) {
-      other_thread->wait();
-      other_thread->run([&use, &points] { use(points); });
-    } else {
-      use(points);
-    }
+    return true;
+  };
+  inputs.rewind();
+  read_ahead<LabelledBatch>(fill, [&](const LabelledBatch& points) {
+    pass.cancel.check();
+    use(points);
     pass.progress.advance(points.batch.count);
-  }
-  if (other_thread) other_thread->wait();
+  });
 }
 
 }  // namespace

@@ -18,7 +18,6 @@ namespace arris::pipeline {
 struct LabelPass {
   const tiling::LatticeMapper& mapper;
   VoxelLabels labels;
-  int threads;  ///< Above 1: batches are used on a second thread while the next ones are read and labelled.
   ProgressSink& progress;
   const CancelToken& cancel;
 };

@@ -90,7 +90,7 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   const RunFolder folder(request.temp_dir);
   const SupervoxelScene scene =
       make_supervoxel_scene(inputs, survey,
-                            {report.parameters, scale, request.memory_bytes, request.tile_points_cap, request.threads,
+                            {report.parameters, scale, request.memory_bytes, request.tile_points_cap,
                              !request.adjacency.empty(), folder.path()},
                             sink, cancel);
   const SupervoxelStageResult& clusters = scene.clusters;
@@ -107,7 +107,7 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   watch.lap("supervoxels");
 
   const tiling::LatticeMapper mapper(inputs.sources(), survey.lattice);
-  const LabelPass pass{mapper, scene.labels(), request.threads, sink, cancel};
+  const LabelPass pass{mapper, scene.labels(), sink, cancel};
   if (!request.table.empty()) {
     merge::SupervoxelMoments moments(clusters.count, kReachCells * scale.seed_steps);
     sum_moments(inputs, pass, moments);

@@ -20,7 +20,6 @@ struct SupervoxelSceneRequest {
   SupervoxelScale scale;
   std::uint64_t memory_bytes = 0;  ///< Budget of the whole process.
   std::uint64_t tile_voxels_cap = 0;
-  int threads = 1;
   bool adjacency = false;
   std::filesystem::path folder;  ///< For temporary files.
 };

@@ -43,7 +43,8 @@ std::uint64_t raised_budget_bytes(std::uint64_t budget_bytes, std::uint64_t more
 /// What a SupervoxelScene and its table keep in memory.
 std::uint64_t predicted_scene_bytes(const tiling::Survey& survey, const SupervoxelScale& scale);
 
-/// Runs, store and normals of the voxels, without colours, for inputs whose neighbours in space are neighbours in the file.
+/// Runs, store and normals of the voxels, without colours, for inputs whose neighbours in space are neighbours in the
+/// file.
 std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
                                          const VoxelMemory& memory);
 

@@ -1,10 +1,9 @@
 #include "pipeline/voxel_stage.h"
 
-#include <optional>
 #include <vector>
 
 #include "core/error.h"
-#include "core/parallel.h"
+#include "core/read_ahead.h"
 #include "pipeline/colour_source.h"
 #include "tiling/lattice_mapper.h"
 #include "tiling/voxel_accumulator.h"
@@ -22,8 +21,7 @@ struct MappedBatch {
 
 VoxelStageResult run_voxel_stage(io::InputSet& inputs, const tiling::Survey& survey, const SupervoxelScale& scale,
                                  SupervoxelParameters::Colour colour, const std::filesystem::path& folder,
-                                 const VoxelMemory& memory, int threads, ProgressSink& progress,
-                                 const CancelToken& cancel) {
+                                 const VoxelMemory& memory, ProgressSink& progress, const CancelToken& cancel) {
   std::unique_ptr<ColourSource> colours;
   if (colour != SupervoxelParameters::Colour::kOff) colours = ColourSource::open(inputs, cancel);
   if (colour == SupervoxelParameters::Colour::kOn && !colours)
@@ -36,34 +34,25 @@ VoxelStageResult run_voxel_stage(io::InputSet& inputs, const tiling::Survey& sur
   io::ReadOptions options;
   options.records = colours != nullptr;
   io::PointBatch batch;
-  MappedBatch mapped[2];  // One is filled while the other is summed.
   std::uint64_t added = 0;
-  const auto add = [&](const MappedBatch& points) {
-    tiling::for_each_mapped_run(points.outcome, [&](std::size_t begin, std::size_t end) {
-      const std::span<const LatticePoint> run(points.positions.data() + begin, end - begin);
-      accumulator.add(run,
-                      colours ? std::span(points.colours).subspan(begin, end - begin) : std::span<const RawColour>());
-      added += run.size();
-    });
-  };
-  // Declared last: it is joined before anything that its task uses goes.
-  std::optional<BackgroundTasks> other_thread;
-  if (threads > 1) other_thread.emplace(1);
   inputs.rewind();
-  for (std::size_t turn = 0; inputs.read(batch, options); turn ^= 1) {
-    cancel.check();
-    MappedBatch& points = mapped[turn];
-    mapper.map(batch, inputs.source_index(), points.positions, points.outcome);
-    if (colours) colours->read(batch, inputs.source_index(), points.colours);
-    if (other_thread) {
-      other_thread->wait();
-      other_thread->run([&] { add(points); });
-    } else {
-      add(points);
-    }
-    progress.advance(batch.count);
-  }
-  if (other_thread) other_thread->wait();
+  read_ahead<MappedBatch>(
+      [&](MappedBatch& points) {
+        if (!inputs.read(batch, options)) return false;
+        mapper.map(batch, inputs.source_index(), points.positions, points.outcome);
+        if (colours) colours->read(batch, inputs.source_index(), points.colours);
+        return true;
+      },
+      [&](const MappedBatch& points) {
+        cancel.check();
+        tiling::for_each_mapped_run(points.outcome, [&](std::size_t begin, std::size_t end) {
+          const std::span<const LatticePoint> run(points.positions.data() + begin, end - begin);
+          accumulator.add(
+              run, colours ? std::span(points.colours).subspan(begin, end - begin) : std::span<const RawColour>());
+          added += run.size();
+        });
+        progress.advance(points.positions.size());
+      });
   if (added != survey.points())
     throw InputError("the inputs changed while they were read; run again when they are complete");
   VoxelStageResult result{accumulator.finish(), colours != nullptr, 0};

@@ -19,12 +19,10 @@ struct VoxelStageResult {
   std::uint64_t peak_temp_bytes = 0;
 };
 
-/// Streams the inputs once (a little more with colours). @param threads
-/// above 1: points are summed on a second thread while the next ones are read. Throws ConfigError if colours are
-/// demanded and an input has none; what reading throws.
+/// Streams the inputs once (a little more with colours); points are summed while the next ones are read. Throws
+/// ConfigError if colours are demanded and an input has none; what reading throws.
 VoxelStageResult run_voxel_stage(io::InputSet& inputs, const tiling::Survey& survey, const SupervoxelScale& scale,
                                  SupervoxelParameters::Colour colour, const std::filesystem::path& folder,
-                                 const VoxelMemory& memory, int threads, ProgressSink& progress,
-                                 const CancelToken& cancel);
+                                 const VoxelMemory& memory, ProgressSink& progress, const CancelToken& cancel);
 
 }  // namespace arris::pipeline

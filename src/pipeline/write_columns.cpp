@@ -2,41 +2,25 @@
 
 #include <numeric>
 
-#include "core/parallel.h"
+#include "pipeline/batch_pass.h"
 
 namespace arris::pipeline {
 
 std::uint64_t write_columns(io::InputSet& inputs, const FillRows& fill, Writers& writers, ProgressSink& progress,
                             const CancelToken& cancel) {
-  progress.phase("write", inputs.points());
   io::ReadOptions options;
   options.records = true;
-  struct Turn {
-    io::PointBatch batch;
-    std::size_t source = 0;
-  };
-  Turn turns[2];
   std::uint64_t written = 0;
   std::vector<std::uint32_t> kept;
   std::vector<std::byte> rows;
-  BackgroundTasks writing(1);  // Declared last: it is joined before anything that its task uses goes.
-  inputs.rewind();
-  for (std::size_t at = 0; inputs.read(turns[at].batch, options); at ^= 1) {
-    cancel.check();
-    Turn& turn = turns[at];
-    turn.source = inputs.source_index();
-    writing.wait();
-    written += turn.batch.count;
-    writing.run([&, &turn = turn] {
-      kept.resize(turn.batch.count);
-      std::iota(kept.begin(), kept.end(), 0U);
-      rows.clear();
-      fill(turn.batch.first_id, turn.batch.count, rows);
-      for (const auto& writer : writers) writer->append(turn.source, turn.batch, kept, rows);
-    });
-    progress.advance(turn.batch.count);
-  }
-  writing.wait();
+  for_each_batch(inputs, options, "write", progress, cancel, [&](std::size_t source, const io::PointBatch& batch) {
+    kept.resize(batch.count);
+    std::iota(kept.begin(), kept.end(), 0U);
+    rows.clear();
+    fill(batch.first_id, batch.count, rows);
+    for (const auto& writer : writers) writer->append(source, batch, kept, rows);
+    written += batch.count;
+  });
   return written;
 }
 

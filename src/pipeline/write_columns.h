@@ -17,8 +17,8 @@ namespace arris::pipeline {
 /// thread at a time.
 using FillRows = std::function<void(std::uint64_t first_id, std::size_t count, std::vector<std::byte>& rows)>;
 
-/// Reads the inputs once more and appends all points with their rows. Rows are filled and written on another thread
-/// while the next points are read. Does not commit. Returns the number of points.
+/// Reads the inputs once more and appends all points with their rows. Rows are filled and written while the next points
+/// are read. Does not commit. Returns the number of points.
 std::uint64_t write_columns(io::InputSet& inputs, const FillRows& fill, Writers& writers, ProgressSink& progress,
                             const CancelToken& cancel);
 

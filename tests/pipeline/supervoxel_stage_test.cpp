@@ -40,7 +40,7 @@ class SupervoxelStage : public ::testing::Test {
     scale_ = resolve_scale(parameters_, survey.spacing, survey.lattice);
     voxels_.reset();
     voxels_.emplace(run_voxel_stage(inputs, survey, scale_, colour, folder_.path(), VoxelMemory(std::uint64_t{1} << 30),
-                                    2, sink_, cancel_));
+                                    sink_, cancel_));
   }
 
   SupervoxelStageResult cluster(Features features, std::uint64_t cap = 0, std::uint64_t memory = kMuch) {
