@@ -86,6 +86,11 @@ ExtractReport plan_only(const ExtractRequest& request, ProgressSink& progress, c
   }
   plan_job_tiles(plan, inputs, request, sink, cancel);
   describe_plan(plan, inputs, request, report);
+  if (plan.method.by_supervoxels()) {
+    const std::uint64_t supervoxels =
+        predicted_supervoxel_bytes(plan.survey, plan.scale, plan.method.supervoxel, request.memory_bytes);
+    report.predicted_peak_bytes = std::max(report.predicted_peak_bytes, supervoxels);
+  }
   warn_of_dropped(report, sink);
   watch.lap("survey");
   report.peak_resident_bytes = peak_resident_bytes();

@@ -72,9 +72,10 @@ struct AddProducts {
   static ARRIS_ALWAYS_INLINE void run(const CandidateSet<float>& c, const BallQuery<float>& ball, BallMoments& out) {
     using V = typename simd::Wide<Bytes>::Float;
     using Integers = typename simd::Wide<Bytes>::Int;
+    using Words = typename simd::Wide<Bytes>::Word;  // What is not inside may overflow.
     const CandidateProducts& p = c.products;
     V n{}, x{}, y{}, z{};
-    Integers xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+    Words xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
     for (std::size_t i = 0; i < simd::padded(c.count); i += Bytes / sizeof(float)) {
       const V dx = simd::load<V>(c.x.data() + i) - ball.x;
       const V dy = simd::load<V>(c.y.data() + i) - ball.y;
@@ -84,17 +85,26 @@ struct AddProducts {
       x = inside ? x + dx : x;
       y = inside ? y + dy : y;
       z = inside ? z + dz : z;
-      xx = inside ? xx + simd::load<Integers>(p.xx.data() + i) : xx;
-      xy = inside ? xy + simd::load<Integers>(p.xy.data() + i) : xy;
-      xz = inside ? xz + simd::load<Integers>(p.xz.data() + i) : xz;
-      yy = inside ? yy + simd::load<Integers>(p.yy.data() + i) : yy;
-      yz = inside ? yz + simd::load<Integers>(p.yz.data() + i) : yz;
-      zz = inside ? zz + simd::load<Integers>(p.zz.data() + i) : zz;
+      xx = inside ? xx + simd::load<Words>(p.xx.data() + i) : xx;
+      xy = inside ? xy + simd::load<Words>(p.xy.data() + i) : xy;
+      xz = inside ? xz + simd::load<Words>(p.xz.data() + i) : xz;
+      yy = inside ? yy + simd::load<Words>(p.yy.data() + i) : yy;
+      yz = inside ? yz + simd::load<Words>(p.yz.data() + i) : yz;
+      zz = inside ? zz + simd::load<Words>(p.zz.data() + i) : zz;
     }
-    const typename simd::Wide<Bytes>::Double sums[] = {
-        simd::exact_doubles(n),  simd::exact_doubles(x),  simd::exact_doubles(y),  simd::exact_doubles(z),
-        simd::exact_doubles(xx), simd::exact_doubles(xy), simd::exact_doubles(xz), simd::exact_doubles(yy),
-        simd::exact_doubles(yz), simd::exact_doubles(zz)};
+    const auto sum_of = [](const Words& words) __attribute__((always_inline)) {
+      return simd::exact_doubles(std::bit_cast<Integers>(words));
+    };
+    const typename simd::Wide<Bytes>::Double sums[] = {simd::exact_doubles(n),
+                                                       simd::exact_doubles(x),
+                                                       simd::exact_doubles(y),
+                                                       simd::exact_doubles(z),
+                                                       sum_of(xx),
+                                                       sum_of(xy),
+                                                       sum_of(xz),
+                                                       sum_of(yy),
+                                                       sum_of(yz),
+                                                       sum_of(zz)};
     out = std::bit_cast<BallMoments>(simd::exact_lane_sums(sums));
   }
 };

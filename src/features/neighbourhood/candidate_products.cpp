@@ -1,5 +1,7 @@
 #include "features/neighbourhood/candidate_products.h"
 
+#include <bit>
+
 #include "features/numerics/simd.h"
 
 namespace arris {
@@ -12,11 +14,13 @@ struct Multiply {
   static ARRIS_ALWAYS_INLINE void run(const float* const (&from)[3], std::size_t count, std::int32_t* const (&to)[6]) {
     using Floats = typename simd::Wide<Bytes>::Float;
     using Integers = typename simd::Wide<Bytes>::Int;
+    // The low halves of products are the same without signs, and those of the padding may overflow.
+    using Words = typename simd::Wide<Bytes>::Word;
     for (std::size_t i = 0; i < count; i += Bytes / sizeof(float)) {
       const auto at = [&](int axis) __attribute__((always_inline)) {
-        return __builtin_convertvector(simd::load<Floats>(from[axis] + i), Integers);
+        return std::bit_cast<Words>(__builtin_convertvector(simd::load<Floats>(from[axis] + i), Integers));
       };
-      const Integers x = at(0), y = at(1), z = at(2);
+      const Words x = at(0), y = at(1), z = at(2);
       simd::store(to[0] + i, x * x);
       simd::store(to[1] + i, x * y);
       simd::store(to[2] + i, x * z);

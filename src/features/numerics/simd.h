@@ -41,6 +41,7 @@ struct Wide {
   typedef float Float __attribute__((vector_size(Bytes)));
   typedef double Double __attribute__((vector_size(Bytes)));
   typedef std::int32_t Int __attribute__((vector_size(Bytes)));
+  typedef std::uint32_t Word __attribute__((vector_size(Bytes)));  ///< Wraps where Int must not overflow.
   typedef std::int64_t Long __attribute__((vector_size(Bytes)));
   typedef std::uint64_t Unsigned __attribute__((vector_size(Bytes)));
 };
