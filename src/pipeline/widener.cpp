@@ -58,8 +58,8 @@ std::vector<UnprovenQuery> Widener::answer(std::span<const UnprovenQuery> querie
   return std::move(farther_);
 }
 
-/// A fifth of the memory holds what is around the queries, half what is analysed of it, the rest what is on its way from
-/// one to the other.
+/// A fifth of the memory holds what is around the queries, half what is analysed of it, the rest what is on its way
+/// from one to the other.
 void Widener::look_around(std::span<const UnprovenQuery> queries) {
   std::optional<NearbyPoints> points = read(queries, group_bytes_ / 5 / NearbyPoints::kBytesPerPoint);
   if (points) {
