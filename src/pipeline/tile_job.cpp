@@ -74,8 +74,8 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, io::InputSet& inputs, c
                        : static_cast<std::int64_t>(std::ceil(needs.max_radius / job.survey.lattice.step + kRounding));
 
   // Tiles share what threads there are: what is serial in one goes on beside the loops of another.
-  job.memory.tile_workers =
-      std::clamp(static_cast<int>(std::min<std::size_t>(job.tiles.tiles.size(), 1U << 20)), 1, job.memory.tile_workers);
+  job.memory.tile_workers = static_cast<int>(
+      std::clamp<std::size_t>(job.tiles.tiles.size(), 1, static_cast<std::size_t>(job.memory.tile_workers)));
   const std::uint64_t largest = job.memory.tile_bytes(job.tiles.largest_covered_points);
   while (job.memory.tile_workers > 1 && largest * job.memory.tile_workers > job.memory.tiles_bytes)
     --job.memory.tile_workers;
