@@ -16,6 +16,34 @@
 #include <vector>
 
 namespace arris {
+namespace {
+
+/// Bodies of one loop until one throws. The loop itself never sees an exception: TBB would then cancel loops nested in
+/// bodies that still run, also those of destructors, and OpenVDB would leak the nodes of a tree that it frees there.
+class LoopBodies {
+ public:
+  void run(const std::function<void(std::size_t, std::size_t)>& body, std::size_t begin, std::size_t end) {
+    if (failed_) return;
+    try {
+      body(begin, end);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      failed_ = true;
+    }
+  }
+  /// Call it once all bodies are done.
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  std::atomic<bool> failed_{false};
+  std::mutex mutex_;
+  std::exception_ptr error_;
+};
+
+}  // namespace
 
 #if defined(__SANITIZE_THREAD__)
 // ThreadSanitizer cannot see the synchronisation inside of Debian's libtbb and reports races there. In its builds loops
@@ -43,23 +71,17 @@ void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body) {
   grain = std::max<std::size_t>(grain, 1);
   std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::exception_ptr error;
+  LoopBodies bodies;
   const auto work = [&] {
     for (std::size_t begin = next.fetch_add(grain); begin < count; begin = next.fetch_add(grain)) {
-      try {
-        body(begin, std::min(count, begin + grain));
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!error) error = std::current_exception();
-      }
+      bodies.run(body, begin, std::min(count, begin + grain));
     }
   };
   std::vector<std::thread> threads;
   for (int i = 1; i < loop_threads(); ++i) threads.emplace_back(work);
   work();
   for (std::thread& thread : threads) thread.join();
-  if (error) std::rethrow_exception(error);
+  bodies.rethrow();
 }
 #else
 namespace {
@@ -93,13 +115,17 @@ void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body) {
   grain = std::max<std::size_t>(grain, 1);
   const std::size_t chunks = count / grain + (count % grain != 0);
+  LoopBodies bodies;
   const auto loop = [&] {
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(std::size_t{0}, chunks,
-                        [&](std::size_t chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); });
+                        [&](std::size_t chunk) {
+                          bodies.run(body, chunk * grain, std::min(count, (chunk + 1) * grain));
+                        });
     });
   };
   arena().execute(loop);
+  bodies.rethrow();
 }
 #endif
 

@@ -32,7 +32,8 @@ int loop_threads();
 /// Calls body(begin, end) over disjoint ranges that cover [0, count), each at most `grain` long (grain >= 1), in
 /// parallel. The ranges are always [i*grain, min((i+1)*grain, count)): their cut does not depend on the number of
 /// threads. Isolated: a thread that waits for its loop takes no task from outside of the loop. The first exception
-/// thrown by a body is rethrown.
+/// thrown by a body is rethrown after the bodies that run then have ended, with whole loops nested in them; no other
+/// body begins.
 void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body);
 

@@ -1,6 +1,7 @@
 #include "core/parallel.h"
 
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
 #include <atomic>
 #include <chrono>
@@ -29,6 +30,31 @@ TEST(ParallelForChunks, ThrowingBody_RethrowsInTheCaller) {
                                      if (begin == 57) throw std::runtime_error("57");
                                    }),
                std::runtime_error);
+}
+
+TEST(ParallelForChunks, LoopOfALibraryInABodyThatStillRuns_IsDoneWholeAfterAnotherThrew) {
+  const ThreadLimit limit(2);
+  std::atomic<bool> begun{false}, throwing{false};
+  std::atomic<int> visits{0};
+  const auto wait_for = [](const std::atomic<bool>& flag) {
+    for (int i = 0; i < 1000 && !flag; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  EXPECT_THROW(parallel_for_chunks(2, 1,
+                                   [&](std::size_t chunk, std::size_t) {
+                                     if (chunk == 0) {
+                                       wait_for(begun);
+                                       throwing = true;
+                                       throw std::runtime_error("0");
+                                     }
+                                     begun = true;
+                                     wait_for(throwing);
+                                     std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                                     tbb::parallel_for(0, 100, [&](int) { ++visits; });  // As OpenVDB frees a tree.
+                                   }),
+               std::runtime_error);
+  if (begun) {
+    EXPECT_EQ(visits, 100);
+  }
 }
 
 #if !defined(__SANITIZE_THREAD__)  // There each loop has threads of its own.
