@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <tuple>
+#include <type_traits>
 
 #include "features/neighbourhood/ball_moments.h"
 #include "features/neighbourhood/candidate_set.h"
+#include "features/neighbourhood/distance_row.h"
 #include "features/neighbourhood/local_spacing.h"
-#include "features/neighbourhood/nearest_distances.h"
 #include "features/neighbourhood/nearest_select.h"
+#include "features/neighbourhood/spacing_batch.h"
 #include "random_clouds.h"
 
 namespace arris {
@@ -201,41 +203,67 @@ TYPED_TEST(Kernels, BallMoments_AreExact) {
   }
 }
 
-TYPED_TEST(Kernels, NearestDistances_AreThoseOfTheNeighbours) {
+TYPED_TEST(Kernels, SpacingBatch_GivesTheSpacingOfTheNeighbours) {
+  using Key = std::conditional_t<std::is_same_v<TypeParam, float>, std::int32_t, std::int64_t>;
+  constexpr std::size_t kNeighbours = SpacingBatch<Key>::kNeighbours;
   for (const Shape shape : {Shape::kGrid, Shape::kFold}) {  // Grids are full of ties.
     const TilePoints tile = test::tile_of(random_positions(shape, 900, 600.0, 3), 1);
     const PointTree tree = tree_of(tile);
-    for (const std::size_t slot : {0U, 5U, 300U, 899U}) {
-      const LatticePoint at = tree.position(slot);
-      CandidateSet<TypeParam> candidates;
-      ASSERT_TRUE(candidates.gather(tree, {{at.x, at.y, at.z}, {at.x, at.y, at.z}}, 1000.0));
-      NearestQuery<TypeParam> query;
-      query.x = static_cast<TypeParam>(at.x - candidates.origin[0]);
-      query.y = static_cast<TypeParam>(at.y - candidates.origin[1]);
-      query.z = static_cast<TypeParam>(at.z - candidates.origin[2]);
-      for (const std::size_t k : {1U, 20U, 200U, 1000U}) {
-        for (const int guess : {1, 900, 20000, 1000000}) {
-          query.k = k;
-          query.max_d2 = 1000000;
-          query.guess_d2 = static_cast<TypeParam>(guess);
-          NearestScratch<TypeParam> scratch;
-          Neighbours neighbours;
-          NearestDistances distances;
-          neighbours.reserve(k);
-          distances.reserve(k);
-          select_nearest(tree, candidates, query, scratch, neighbours);
-          select_nearest(tree, candidates, query, scratch, distances);
-          ASSERT_EQ(distances.count, neighbours.count);
-          EXPECT_EQ(distances.last_d2, neighbours.last_d2);
-          for (std::size_t i = 0; i < distances.count; ++i) ASSERT_EQ(distances.d2[i], neighbours.d2[i]);
-          if (distances.count > 0) {
-            neighbours.count = std::min<std::size_t>(neighbours.count, 200);
-            EXPECT_EQ(density_spacing(distances.d2.data(), neighbours.count), local_spacing(neighbours).density);
-          }
+    const LatticePoint middle = tree.position(450);
+    CandidateSet<TypeParam> candidates;
+    ASSERT_TRUE(candidates.gather(tree, {{middle.x, middle.y, middle.z}, {middle.x, middle.y, middle.z}}, 1500.0));
+    NearestScratch<TypeParam> scratch;
+    Neighbours neighbours;
+    neighbours.reserve(kNeighbours);
+    for (const int guess : {1, 900, 20000, 1000000}) {  // Too little, and so much that rows overflow.
+      SpacingBatch<Key> batch;
+      std::vector<LocalSpacing> spacings;
+      std::vector<std::uint64_t> last;
+      for (std::size_t i = 0; i < SpacingBatch<Key>::kCount; ++i) {
+        const LatticePoint at = tree.position(55 * i);
+        NearestQuery<TypeParam> query;
+        query.x = static_cast<TypeParam>(at.x - candidates.origin[0]);
+        query.y = static_cast<TypeParam>(at.y - candidates.origin[1]);
+        query.z = static_cast<TypeParam>(at.z - candidates.origin[2]);
+        query.k = kNeighbours;
+        query.max_d2 = 1000000;
+        query.guess_d2 = static_cast<TypeParam>(guess);
+        DistanceRow row;
+        select_nearest(tree, candidates, query, scratch, neighbours);
+        select_nearest(tree, candidates, query, scratch, row);
+        ASSERT_EQ(row.count, neighbours.count);
+        ASSERT_EQ(row.count, kNeighbours);
+        ASSERT_EQ(row.narrow, sizeof(Key) == 4);
+        if constexpr (sizeof(Key) == 4) {
+          batch.set(i, row.narrow_d2);
+        } else {
+          batch.set(i, row.wide_d2);
         }
+        spacings.push_back(local_spacing(neighbours));
+        last.push_back(neighbours.last_d2);
+      }
+      batch.solve();
+      for (std::size_t i = 0; i < spacings.size(); ++i) {
+        EXPECT_EQ(batch.density(i), spacings[i].density);
+        EXPECT_EQ(static_cast<std::uint64_t>(batch.last_d2(i)), last[i]);
       }
     }
   }
+}
+
+TYPED_TEST(Kernels, DistanceRow_OfFewPoints_CountsThem) {
+  const TilePoints tile = test::tile_of({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {900, 0, 0}}, 1);
+  const PointTree tree = tree_of(tile);
+  CandidateSet<TypeParam> candidates;
+  ASSERT_TRUE(candidates.gather(tree, {{0, 0, 0}, {0, 0, 0}}, 10.0));
+  NearestScratch<TypeParam> scratch;
+  DistanceRow row;
+  NearestQuery<TypeParam> query{0, 0, 0, 20, 100, 1};
+  select_nearest(tree, candidates, query, scratch, row);
+  EXPECT_EQ(row.count, 2U);
+  query.k = 1;
+  select_nearest(tree, candidates, query, scratch, row);
+  EXPECT_EQ(row.count, 1U);
 }
 
 TEST(BallMoments, SumsBeyondFloat_AreExactFromFloats) {

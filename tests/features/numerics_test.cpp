@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 #include <tuple>
 
@@ -13,7 +15,9 @@
 #include "features/numerics/exact_math.h"
 #include "features/numerics/fixed_point.h"
 #include "features/numerics/principal_frames.h"
+#include "features/numerics/sorting_network.h"
 #include "features/numerics/symmetric_eigen3.h"
+#include "features/numerics/transpose.h"
 
 namespace arris {
 namespace {
@@ -399,6 +403,34 @@ TEST(PlanarDiameter, CoincidentPoints_HaveNone) {
   EXPECT_EQ(planar_diameter(points, hull).length2, 0.0);
   points.clear();
   EXPECT_EQ(planar_diameter(points, hull).length2, 0.0);
+}
+
+TEST(RankNetwork, RanksAsked_AreWhereSortingPutsThem) {
+  std::mt19937 random(4);
+  for (int round = 0; round < 500; ++round) {
+    std::int32_t lanes[4][32];
+    simd::Wide<16>::Int values[32];
+    for (int lane = 0; lane < 4; ++lane) {
+      const auto distinct = 1 + random() % (round % 2 == 0 ? 2 : 1000);  // Networks that sort zeros and ones sort all.
+      for (int i = 0; i < 32; ++i) lanes[lane][i] = values[i][lane] = static_cast<std::int32_t>(random() % distinct);
+      std::sort(std::begin(lanes[lane]), std::end(lanes[lane]));
+    }
+    RankNetwork<32, 11, 20>::run(values);
+    for (int lane = 0; lane < 4; ++lane) {
+      for (int i = 11; i <= 20; ++i) ASSERT_EQ(values[i][lane], lanes[lane][i]);
+    }
+  }
+}
+
+TEST(Transpose, Rows_BecomeColumns) {
+  simd::Wide<32>::Int rows[8];
+  for (int i = 0; i < 8; ++i) {
+    for (int j = 0; j < 8; ++j) rows[i][j] = 8 * i + j;
+  }
+  simd::transpose<8>(rows);
+  for (int i = 0; i < 8; ++i) {
+    for (int j = 0; j < 8; ++j) EXPECT_EQ(rows[i][j], 8 * j + i);
+  }
 }
 
 }  // namespace

@@ -5,13 +5,12 @@
 
 #include "core/columns.h"
 #include "features/contour/contour_finish.h"
-#include "features/neighbourhood/local_spacing.h"
 
 namespace arris {
 namespace {
 
 /// Neighbours that the local spacing is taken from.
-constexpr std::size_t kSpacingNeighbours = 20;
+constexpr std::size_t kSpacingNeighbours = SpacingBatch<std::int32_t>::kNeighbours;
 
 /// Larger balls of up to this many median spacings of a group share their candidates.
 constexpr double kCommonSpacing = 1.2;
@@ -76,8 +75,9 @@ ArrisRunner::ArrisRunner(const ArrisTask& task)
 void ArrisRunner::run(std::span<const std::uint32_t> slots) {
   balls_.clear();
   spacings_.clear();
-  neighbour_search_.run(
-      slots, [this](std::uint32_t slot, const NearestDistances& neighbours) { use_neighbours(slot, neighbours); });
+  neighbour_search_.run(slots, [this](std::uint32_t slot, const DistanceRow& row) { use_distances(slot, row); });
+  use_spacings(narrow_);
+  use_spacings(wide_);
   if (balls_.empty()) return;
   std::vector<double>& sorted = sorted_spacings_;
   sorted.assign(spacings_.begin(), spacings_.end());
@@ -102,18 +102,40 @@ void ArrisRunner::leave_unproven(std::uint32_t slot, double reach) {
   unproven_.push_back({task_.tree.id(slot), task_.tree.position(slot), static_cast<std::int64_t>(rounded)});
 }
 
-void ArrisRunner::use_neighbours(std::uint32_t slot, const NearestDistances& neighbours) {
-  if (neighbours.count < kSpacingNeighbours) {
+void ArrisRunner::use_distances(std::uint32_t slot, const DistanceRow& row) {
+  if (row.count < kSpacingNeighbours) {
     if (seen(slot, task_.max_reach)) {
       isolated_.push_back(slot);
     } else {
       leave_unproven(slot, task_.max_reach);
     }
-    return;
+  } else if (row.narrow) {
+    wait_for_spacing(narrow_, slot, row.narrow_d2);
+  } else {
+    wait_for_spacing(wide_, slot, row.wide_d2);
   }
-  const double spacing = task_.parameters.spacing > 0.0 ? task_.parameters.spacing / task_.lattice.step
-                                                        : density_spacing(neighbours.d2.data(), neighbours.count);
-  const double last = std::sqrt(static_cast<double>(neighbours.last_d2));
+}
+
+template <class Key>
+void ArrisRunner::wait_for_spacing(Waiting<Key>& waiting, std::uint32_t slot, const DistanceRow::Keys<Key>& row) {
+  waiting.slots[waiting.count] = slot;
+  waiting.batch.set(waiting.count++, row);
+  if (waiting.count == waiting.slots.size()) use_spacings(waiting);
+}
+
+template <class Key>
+void ArrisRunner::use_spacings(Waiting<Key>& waiting) {
+  if (waiting.count == 0) return;
+  waiting.batch.solve();
+  for (std::size_t i = 0; i < waiting.count; ++i) {
+    use_spacing(waiting.slots[i], waiting.batch.density(i), static_cast<double>(waiting.batch.last_d2(i)));
+  }
+  waiting.count = 0;
+}
+
+void ArrisRunner::use_spacing(std::uint32_t slot, double density, double last_d2) {
+  const double spacing = task_.parameters.spacing > 0.0 ? task_.parameters.spacing / task_.lattice.step : density;
+  const double last = std::sqrt(last_d2);
   // Unseen points can only bring the last neighbour closer and so make all balls smaller.
   const double widest = std::max(last, std::min(kBallRadii[2] * spacing, task_.max_reach));
   const double radius = std::min(kBallRadii[0] * spacing, task_.max_reach);

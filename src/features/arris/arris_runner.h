@@ -1,6 +1,7 @@
 #pragma once
 /// @file Runs arris's own method for the queries of one bucket after the other; one runner per thread.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,9 +13,10 @@
 #include "features/arris/scatter.h"
 #include "features/contour/tile_contours.h"
 #include "features/neighbourhood/ball_search.h"
-#include "features/neighbourhood/nearest_distances.h"
+#include "features/neighbourhood/distance_row.h"
 #include "features/neighbourhood/neighbour_search.h"
 #include "features/neighbourhood/point_tree.h"
+#include "features/neighbourhood/spacing_batch.h"
 
 namespace arris {
 
@@ -48,7 +50,20 @@ class ArrisRunner {
  private:
   class Balls;
 
-  void use_neighbours(std::uint32_t slot, const NearestDistances& neighbours);
+  /// Points whose spacings are worked out together.
+  template <class Key>
+  struct Waiting {
+    SpacingBatch<Key> batch;
+    std::array<std::uint32_t, SpacingBatch<Key>::kCount> slots;
+    std::size_t count = 0;
+  };
+
+  void use_distances(std::uint32_t slot, const DistanceRow& row);
+  template <class Key>
+  void wait_for_spacing(Waiting<Key>& waiting, std::uint32_t slot, const DistanceRow::Keys<Key>& row);
+  template <class Key>
+  void use_spacings(Waiting<Key>& waiting);
+  void use_spacing(std::uint32_t slot, double density, double last_d2);
   template <class T>
   void test_group(const CandidateSet<T>& candidates, std::span<const BallQuery<T>> queries,
                   std::span<const Ball> balls);
@@ -60,7 +75,9 @@ class ArrisRunner {
   void leave_unproven(std::uint32_t slot, double reach);
 
   ArrisTask task_;
-  NearestSearch<NearestDistances> neighbour_search_;
+  NearestSearch<DistanceRow> neighbour_search_;
+  Waiting<std::int32_t> narrow_;
+  Waiting<std::int64_t> wide_;
   BallSearch ball_search_;
   SharedBalls second_balls_, third_balls_;  ///< Of the group whose first balls are being tested.
   std::vector<Ball> balls_;

@@ -16,8 +16,5 @@ struct LocalSpacing {
 /// neighbours within r_j share a disc. One distance alone scatters more; near neighbours scatter most and feel noise
 /// off the surface.
 LocalSpacing local_spacing(const Neighbours& neighbours);
-/// The density spacing alone.
-/// @param d2  of at least one neighbour; readable up to simd::padded(n).
-double density_spacing(const double* d2, std::size_t n);
 
 }  // namespace arris

@@ -94,15 +94,15 @@ std::size_t collect(const CandidateSet<T>& c, const NearestQuery<T>& q, T limit,
 }
 
 template <bool kIndices, class T>
-std::size_t collect_enough(const CandidateSet<T>& candidates, const NearestQuery<T>& query,
-                           NearestScratch<T>& scratch) {
+Collected<T> collect_enough(const CandidateSet<T>& candidates, const NearestQuery<T>& query,
+                            NearestScratch<T>& scratch) {
   scratch.make_room(candidates.count);
   T limit = std::min(query.guess_d2, query.max_d2);
   for (;;) {
     const std::size_t n = collect<kIndices>(candidates, query, limit, scratch.d2.data(), scratch.candidate.data());
-    if (n > query.k || limit >= query.max_d2) return n;
+    if (n > query.k || limit >= query.max_d2) return {n, limit};
     // On a surface the number grows with the square of the distance; a little more, so that the next try is the last.
-    const double growth = std::clamp(1.3 * static_cast<double>(query.k + 1) / static_cast<double>(n + 1), 1.5, 8.0);
+    const double growth = std::clamp(1.3 * static_cast<double>(query.k + 1) / static_cast<double>(n + 1), 1.3, 8.0);
     const double next = static_cast<double>(limit) * growth + 1.0;
     limit = next >= static_cast<double>(query.max_d2) ? query.max_d2 : static_cast<T>(next);
   }
@@ -111,26 +111,29 @@ std::size_t collect_enough(const CandidateSet<T>& candidates, const NearestQuery
 }  // namespace
 
 template <class T>
-std::size_t collect_nearest(const CandidateSet<T>& candidates, const NearestQuery<T>& query,
-                            NearestScratch<T>& scratch) {
+Collected<T> collect_nearest(const CandidateSet<T>& candidates, const NearestQuery<T>& query,
+                             NearestScratch<T>& scratch) {
   return collect_enough<true>(candidates, query, scratch);
 }
 
 template <class T>
-std::size_t collect_nearest_distances(const CandidateSet<T>& candidates, const NearestQuery<T>& query,
-                                      NearestScratch<T>& scratch) {
+Collected<T> collect_nearest_distances(const CandidateSet<T>& candidates, const NearestQuery<T>& query,
+                                       NearestScratch<T>& scratch) {
   return collect_enough<false>(candidates, query, scratch);
 }
 
-template std::size_t collect_nearest(const CandidateSet<float>&, const NearestQuery<float>&, NearestScratch<float>&);
-template std::size_t collect_nearest(const CandidateSet<double>&, const NearestQuery<double>&, NearestScratch<double>&);
-template std::size_t collect_nearest(const CandidateSet<std::int64_t>&, const NearestQuery<std::int64_t>&,
-                                     NearestScratch<std::int64_t>&);
-template std::size_t collect_nearest_distances(const CandidateSet<float>&, const NearestQuery<float>&,
-                                               NearestScratch<float>&);
-template std::size_t collect_nearest_distances(const CandidateSet<double>&, const NearestQuery<double>&,
-                                               NearestScratch<double>&);
-template std::size_t collect_nearest_distances(const CandidateSet<std::int64_t>&, const NearestQuery<std::int64_t>&,
-                                               NearestScratch<std::int64_t>&);
+template Collected<float> collect_nearest(const CandidateSet<float>&, const NearestQuery<float>&,
+                                          NearestScratch<float>&);
+template Collected<double> collect_nearest(const CandidateSet<double>&, const NearestQuery<double>&,
+                                           NearestScratch<double>&);
+template Collected<std::int64_t> collect_nearest(const CandidateSet<std::int64_t>&, const NearestQuery<std::int64_t>&,
+                                                 NearestScratch<std::int64_t>&);
+template Collected<float> collect_nearest_distances(const CandidateSet<float>&, const NearestQuery<float>&,
+                                                    NearestScratch<float>&);
+template Collected<double> collect_nearest_distances(const CandidateSet<double>&, const NearestQuery<double>&,
+                                                     NearestScratch<double>&);
+template Collected<std::int64_t> collect_nearest_distances(const CandidateSet<std::int64_t>&,
+                                                           const NearestQuery<std::int64_t>&,
+                                                           NearestScratch<std::int64_t>&);
 
 }  // namespace arris

@@ -5,15 +5,22 @@
 
 namespace arris {
 
-/// Fills scratch.d2 and scratch.candidate, in the order of the candidates, with those within a distance that grows from
-/// query.guess_d2 until it holds more than query.k of them (the query itself is one) or is query.max_d2. Returns how
-/// many; up to simd::kPadding more entries are overwritten. O(candidates).
+/// How many there are within which distance.
 template <class T>
-std::size_t collect_nearest(const CandidateSet<T>& candidates, const NearestQuery<T>& query,
-                            NearestScratch<T>& scratch);
+struct Collected {
+  std::size_t count = 0;
+  T limit_d2 = 0;
+};
+
+/// Fills scratch.d2 and scratch.candidate, in the order of the candidates, with those within a distance that grows from
+/// query.guess_d2 until it holds more than query.k of them (the query itself is one) or is query.max_d2. Up to
+/// simd::kPadding more entries are overwritten. O(candidates).
+template <class T>
+Collected<T> collect_nearest(const CandidateSet<T>& candidates, const NearestQuery<T>& query,
+                             NearestScratch<T>& scratch);
 /// The same without scratch.candidate.
 template <class T>
-std::size_t collect_nearest_distances(const CandidateSet<T>& candidates, const NearestQuery<T>& query,
-                                      NearestScratch<T>& scratch);
+Collected<T> collect_nearest_distances(const CandidateSet<T>& candidates, const NearestQuery<T>& query,
+                                       NearestScratch<T>& scratch);
 
 }  // namespace arris

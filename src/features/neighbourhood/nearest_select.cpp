@@ -101,7 +101,7 @@ void order_ties(const PointTree& tree, const CandidateSet<T>& candidates, Neares
 template <class T>
 void select_nearest(const PointTree& tree, const CandidateSet<T>& candidates, const NearestQuery<T>& query,
                     NearestScratch<T>& scratch, Neighbours& found) {
-  const std::size_t n = collect_nearest(candidates, query, scratch);
+  const std::size_t n = collect_nearest(candidates, query, scratch).count;
   const std::size_t wanted = std::min(n, query.k + 1);  // With the query itself, which comes first.
   if constexpr (std::is_same_v<T, std::int64_t>) {
     sort_by_comparison(scratch, n, wanted);

@@ -23,6 +23,7 @@ struct Neighbours {
     for (auto* column : {&dx, &dy, &dz, &d2}) column->resize(simd::padded(k) + simd::kPadding);
     slot.resize(k);
   }
+  double last_d2_guess() const { return static_cast<double>(last_d2); }
 };
 
 /// What to look for. `k` neighbours, at most `max_d2` away (in T: exact), starting with those within `guess_d2`.

@@ -24,7 +24,8 @@ struct SearchLimits {
 /// The k nearest neighbours within R_max of each query of a group. How far the first gathering reaches is guessed from
 /// the group before; queries that need more are run again. That decides the speed only. Not thread-safe.
 ///
-/// `Found` is what is told of the neighbours: anything that select_nearest() fills.
+/// `Found` is what is told of the neighbours: anything that select_nearest() fills, with a count and last_d2_guess(),
+/// the squared distance within which they are, about.
 template <class Found>
 class NearestSearch {
  public:
@@ -103,7 +104,7 @@ class NearestSearch {
     work.guess_d2 = squared_limit<T>(reach / kReachMargin, limits_.max_d2);
     for (const std::uint32_t slot : slots) {
       if (find(work, slot, reach)) {
-        reach_sum_ += std::sqrt(static_cast<double>(neighbours_.last_d2));
+        reach_sum_ += std::sqrt(neighbours_.last_d2_guess());
         ++measured_;
         use(slot, neighbours_);
       } else {
@@ -125,7 +126,7 @@ class NearestSearch {
     query.guess_d2 = work.guess_d2;
     select_nearest(tree_, work.candidates, query, work.nearest, neighbours_);
     if (neighbours_.count < query.k) return static_cast<std::uint64_t>(query.max_d2) == limits_.max_d2;
-    work.guess_d2 = static_cast<T>(1.1 * static_cast<double>(neighbours_.last_d2) + 1.0);
+    work.guess_d2 = static_cast<T>(1.2 * neighbours_.last_d2_guess() + 1.0);
     return true;
   }
 
