@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/columns.h"
 #include "features/contour/contour_finish.h"
@@ -12,7 +13,7 @@ namespace {
 /// Neighbours that the local spacing is taken from.
 constexpr std::size_t kSpacingNeighbours = SpacingBatch<std::int32_t>::kNeighbours;
 
-/// Larger balls of up to this many median spacings of a group share their candidates.
+/// Larger balls of up to this many mean spacings of a group share their candidates.
 constexpr double kCommonSpacing = 1.2;
 
 /// What the shape of a point's first ball says before any point of it is looked at; false: it is no contour point.
@@ -79,10 +80,8 @@ void ArrisRunner::run(std::span<const std::uint32_t> slots) {
   use_spacings(narrow_);
   use_spacings(wide_);
   if (balls_.empty()) return;
-  std::vector<double>& sorted = sorted_spacings_;
-  sorted.assign(spacings_.begin(), spacings_.end());
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const double common = kCommonSpacing * sorted[sorted.size() / 2];
+  const double sum = std::accumulate(spacings_.begin(), spacings_.end(), 0.0);
+  const double common = kCommonSpacing * sum / static_cast<double>(spacings_.size());
   second_balls_.begin(balls_, std::min(kBallRadii[1] * common, task_.max_reach));
   third_balls_.begin(balls_, std::min(kBallRadii[2] * common, task_.max_reach));
   ball_search_.run_groups(balls_, [this](const auto& candidates, const auto& queries, std::span<const Ball> balls) {

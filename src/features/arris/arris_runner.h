@@ -81,8 +81,7 @@ class ArrisRunner {
   BallSearch ball_search_;
   SharedBalls second_balls_, third_balls_;  ///< Of the group whose first balls are being tested.
   std::vector<Ball> balls_;
-  std::vector<double> spacings_;  ///< Of the balls' points, steps.
-  std::vector<double> sorted_spacings_;
+  std::vector<double> spacings_;       ///< Of the balls' points, steps.
   std::vector<BallMeasure> measures_;  ///< Of the balls of a group, then of the near balls of some.
   std::vector<BallShape> shapes_;
   std::vector<PointProspects> prospects_;

@@ -50,20 +50,20 @@ class BallSearch {
   template <class Use>
   void run_groups(std::vector<Ball>& balls, Use&& use) {
     // Balls of one size together; the few large ones would only burden the others.
-    std::sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) {
-      return a.radius != b.radius ? a.radius < b.radius : a.slot < b.slot;
-    });
-    for (std::span<const Ball> left(balls); !left.empty();) {
-      const double most = kBallSpread * left[left.size() / 2].radius;
-      std::size_t take = left.size();
-      while (left[take - 1].radius > most) --take;
+    for (std::span<Ball> left(balls); !left.empty();) {
+      double sum = 0.0;
+      for (const Ball& ball : left) sum += ball.radius;
+      const double most = kBallSpread * sum / static_cast<double>(left.size());
+      const auto larger =
+          std::partition(left.begin(), left.end(), [=](const Ball& ball) { return ball.radius <= most; });
+      const std::size_t take = static_cast<std::size_t>(larger - left.begin());
       run_group(left.first(take), use);
       left = left.subspan(take);
     }
   }
 
  private:
-  /// Balls up to this much larger than the median of their group share its candidates.
+  /// Balls up to this much larger than the mean of those left share their candidates.
   static constexpr double kBallSpread = 1.3;
 
   template <class Use>
@@ -79,11 +79,11 @@ class BallSearch {
     std::vector<BallQuery<T>> queries;
   };
 
-  /// Balls in ascending order of their radii.
   template <class T, class Use>
   bool try_group(Workspace<T>& work, std::span<const Ball> balls, Use& use) {
     CandidateSet<T>& candidates = work.candidates;
-    const double reach = balls.back().radius;
+    double reach = 0.0;
+    for (const Ball& ball : balls) reach = std::max(reach, ball.radius);
     if ((reach + 1.0) * (reach + 1.0) >= kExactSquares<T>) return false;
     const ClosedBox box = detail::box_of(tree_, balls, [](const Ball& ball) { return ball.slot; });
     if (!candidates.gather(tree_, box, reach)) return false;
