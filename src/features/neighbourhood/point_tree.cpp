@@ -26,17 +26,37 @@ ClosedBox box_of(std::span<const Item> items) {
   return box;
 }
 
-/// Puts the items for which `before` holds in front, without branches; returns how many.
+/// Puts the items in front whose coordinate `before` holds for, without branches; returns how many.
 template <class Before>
-std::size_t part(std::span<Item> items, Before before) {
+std::size_t part(std::span<Item> items, int axis, Before before) {
   std::size_t n = 0;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const Item item = items[i];
-    items[i] = items[n];
-    items[n] = item;
-    n += before(item);
+  std::size_t gap = 0;  // Its item is kept aside.
+  const Item first = items[0];
+  const std::size_t first_before = before(first.at[axis]);
+  for (std::size_t i = 1; i < items.size(); ++i) {
+    items[gap] = items[n];
+    items[n] = items[i];
+    gap = i;
+    n += before(items[i].at[axis]);
   }
-  return n;
+  items[gap] = items[n];
+  items[n] = first;
+  return n + first_before;
+}
+
+/// A coordinate that about `nth` of the items are below: a little more or fewer, so that what is left after parting by
+/// it is most often the smaller part.
+std::int32_t pivot_for(std::span<const Item> items, std::size_t nth, int axis) {
+  constexpr std::size_t kMostSamples = 31;
+  constexpr std::size_t kItemsPerSample = 16;
+  std::int32_t samples[kMostSamples];
+  const std::size_t count = std::clamp<std::size_t>(items.size() / kItemsPerSample, 5, kMostSamples);
+  for (std::size_t i = 0; i < count; ++i) samples[i] = items[items.size() * (2 * i + 1) / (2 * count)].at[axis];
+  const std::size_t margin = (count + 1) / 16;
+  std::size_t rank = nth * count / items.size();
+  rank = 2 * nth < items.size() ? std::min(rank + margin, count - 1) : rank - std::min(rank, margin);
+  std::nth_element(samples, samples + rank, samples + count);
+  return samples[rank];
 }
 
 /// As std::nth_element, but in most rounds no branch depends on an item.
@@ -44,12 +64,8 @@ void select(std::span<Item> items, std::size_t nth, int axis) {
   constexpr std::size_t kFew = 32;
   constexpr int kMostRounds = 64;  // Against orders that make every pivot a bad one.
   for (int round = 0; round < kMostRounds && items.size() > kFew; ++round) {
-    const std::size_t last = items.size() - 1;
-    std::int32_t sample[] = {items[0].at[axis], items[last / 4].at[axis], items[last / 2].at[axis],
-                             items[last / 4 * 3].at[axis], items[last].at[axis]};
-    std::sort(std::begin(sample), std::end(sample));
-    const std::int32_t pivot = sample[2];
-    const std::size_t below = part(items, [=](const Item& item) { return item.at[axis] < pivot; });
+    const std::int32_t pivot = pivot_for(items, nth, axis);
+    const std::size_t below = part(items, axis, [=](std::int32_t at) { return at < pivot; });
     if (nth < below) {
       items = items.first(below);
       continue;
@@ -59,7 +75,7 @@ void select(std::span<Item> items, std::size_t nth, int axis) {
     nth -= below;
     if (!uneven) continue;
     // Many may be equal to the pivot.
-    const std::size_t equal = part(items, [=](const Item& item) { return item.at[axis] == pivot; });
+    const std::size_t equal = part(items, axis, [=](std::int32_t at) { return at == pivot; });
     if (nth < equal) return;
     items = items.subspan(equal);
     nth -= equal;
