@@ -146,17 +146,29 @@ TEST(SymmetricEigen3, ExactPlane_HasAnExactNormal) {
   EXPECT_NEAR(std::fabs(dot(frame.e3, {1.0, -2.0, -1.0})), std::sqrt(6.0), 1e-12);
 }
 
+TEST(ExactMath, ShortLogarithm_IsRightToAFloat) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> exponent(-80.0, 80.0);
+  for (int i = 0; i < 20000; ++i) {
+    const auto x = static_cast<float>(i % 2 ? std::exp(exponent(random)) : 1.0 + 1e-3 * exponent(random));
+    const double expected = std::log(static_cast<double>(x));
+    EXPECT_NEAR(short_log_of_positive<double>(x), expected, 2e-7 * std::max(1.0, std::fabs(expected))) << x;
+    simd::Wide<32>::Float lanes = {x, 1.0F, x, x, 0.5F, x, x, x};
+    EXPECT_EQ(short_log_of_positive<simd::Wide<64>::Double>(lanes)[3], short_log_of_positive<double>(x));
+  }
+}
+
 TEST(Entropy, PureShapes_HaveNone) {
-  EXPECT_NEAR(entropy_of(Eigenvalues<double>{1, 0, 0}), 0.0, 1e-12);
-  EXPECT_NEAR(entropy_of(Eigenvalues<double>{1, 1, 0}), 0.0, 1e-12);
-  EXPECT_NEAR(entropy_of(Eigenvalues<double>{1, 1, 1}), 0.0, 1e-12);
+  EXPECT_NEAR(entropy_of(Eigenvalues<double>{1, 0, 0}), 0.0, 3e-7);
+  EXPECT_NEAR(entropy_of(Eigenvalues<double>{1, 1, 0}), 0.0, 3e-7);
+  EXPECT_NEAR(entropy_of(Eigenvalues<double>{1, 1, 1}), 0.0, 3e-7);
   EXPECT_TRUE(std::isinf(entropy_of(Eigenvalues<double>{0, 0, 0})));
 }
 
 TEST(Entropy, EqualShares_HaveTheMost) {
   // a1 = a2 = a3 = 1/3 means delta = 3 : 2 : 1.
-  EXPECT_NEAR(entropy_of(Eigenvalues<double>{9, 4, 1}), std::log(3.0), 1e-12);
-  EXPECT_NEAR(entropy_of(Eigenvalues<double>{900, 400, 100}), std::log(3.0), 1e-12);
+  EXPECT_NEAR(entropy_of(Eigenvalues<double>{9, 4, 1}), std::log(3.0), 3e-7);
+  EXPECT_NEAR(entropy_of(Eigenvalues<double>{900, 400, 100}), std::log(3.0), 3e-7);
 }
 
 Neighbours neighbours_of(const std::vector<Vector3>& points) {

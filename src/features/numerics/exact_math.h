@@ -5,7 +5,9 @@
 /// `V` is double or a vector of doubles; all give the same bits lane by lane.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "features/numerics/simd.h"
 
@@ -37,6 +39,25 @@ ARRIS_ALWAYS_INLINE V log_of_positive(const V& x) {
   sum = sum * z + 1.0 / 5.0;
   sum = sum * z + 1.0 / 3.0;
   return exponent * 0.69314718055994530942 + 2.0 * (s + s * z * sum);
+}
+
+/// The same in float arithmetic: error below 2e-7 of max(1, |log x|). V, double or a vector of doubles, says how many.
+/// @param x  positive, not subnormal.
+template <class V>
+ARRIS_ALWAYS_INLINE typename simd::Narrow<V>::Float short_log_of_positive(const typename simd::Narrow<V>::Float& x) {
+  using Float = typename simd::Narrow<V>::Float;
+  using Int = typename simd::Narrow<V>::Int;
+  constexpr std::int32_t kOne = 0x3f800000;
+  constexpr std::int32_t kSqrtHalf = 0x3f3504f3;
+  const Int raw = std::bit_cast<Int>(x);
+  const Int exponent = ((raw + (kOne - kSqrtHalf)) >> 23) - 127;
+  const Float m = std::bit_cast<Float>(raw - exponent * (1 << 23));  // In [sqrt(1/2), sqrt(2)).
+  const Float s = (m - 1.0F) / (m + 1.0F);
+  const Float z = s * s;
+  Float sum = z * (1.0F / 9.0F) + 1.0F / 7.0F;
+  sum = sum * z + 1.0F / 5.0F;
+  sum = sum * z + 1.0F / 3.0F;
+  return simd::convert<Float>(exponent) * 0.69314718F + 2.0F * (s + s * z * sum);
 }
 
 /// exp(-x) for x >= 0; relative error below 1e-14, 0 beyond x = 700.

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <type_traits>
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic ignored \
@@ -61,6 +62,28 @@ struct VectorOf<double, Bytes> {
   using Mask = typename Wide<Bytes>::Long;
   static constexpr std::size_t kLanes = Bytes / sizeof(double);
 };
+
+/// The float, or the vector of as many floats, for a double or a vector of doubles; and its integers.
+template <class V>
+struct Narrow {
+  using Float = typename Wide<sizeof(V) / 2>::Float;
+  using Int = typename Wide<sizeof(V) / 2>::Int;
+};
+template <>
+struct Narrow<double> {
+  using Float = float;
+  using Int = std::int32_t;
+};
+
+/// Each lane converted, as by static_cast.
+template <class To, class V>
+ARRIS_ALWAYS_INLINE To convert(const V& v) {
+  if constexpr (std::is_arithmetic_v<V>) {
+    return static_cast<To>(v);
+  } else {
+    return __builtin_convertvector(v, To);
+  }
+}
 
 constexpr int kWidestBytes = 64;
 /// Arrays read by kernels are padded to a multiple of this many elements.
