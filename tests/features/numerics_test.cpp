@@ -173,7 +173,7 @@ TEST(Entropy, EqualShares_HaveTheMost) {
 
 Neighbours neighbours_of(const std::vector<Vector3>& points) {
   Neighbours n;
-  n.reserve(points.size());
+  n.reserve(std::max<std::size_t>(points.size(), 64));
   n.count = points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
     n.dx[i] = points[i][0];

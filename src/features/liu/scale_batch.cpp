@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "features/numerics/transpose.h"
+
 namespace arris {
 namespace {
 
@@ -58,6 +60,32 @@ struct Best {
 struct ScaleBatch::Kernel {
   template <int Bytes>
   static ARRIS_ALWAYS_INLINE void run(ScaleBatch& batch) {
+    transpose_rows<Bytes>(batch);
+    choose<Bytes>(batch);
+  }
+
+ private:
+  /// To columns of the j-th neighbours of all queries.
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void transpose_rows(ScaleBatch& batch) {
+    using V = typename simd::Wide<Bytes>::Double;
+    constexpr std::size_t kLanes = Bytes / sizeof(double);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (std::size_t query = 0; query < kCount; query += kLanes) {
+        for (std::size_t first = 0; first < batch.offsets_.size(); first += kLanes) {
+          V rows[kLanes];
+          ARRIS_UNROLL
+          for (std::size_t i = 0; i < kLanes; ++i) rows[i] = simd::load<V>(batch.rows_[query + i][axis] + first);
+          simd::transpose<kLanes>(rows);
+          ARRIS_UNROLL
+          for (std::size_t j = 0; j < kLanes; ++j) simd::store(batch.offsets_[first + j][axis].data() + query, rows[j]);
+        }
+      }
+    }
+  }
+
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void choose(ScaleBatch& batch) {
     using V = typename simd::Wide<Bytes>::Double;
     const ScaleRange& range = batch.range_;
     const V never = V{} + std::numeric_limits<double>::infinity();
@@ -69,8 +97,8 @@ struct ScaleBatch::Kernel {
       for (int k = range.k_min; k <= range.k_max; k += range.k_step) {
         for (; added < static_cast<std::size_t>(k); ++added) {
           const Offset& offset = batch.offsets_[added];
-          moments.add(simd::load<V>(offset.x.data() + i), simd::load<V>(offset.y.data() + i),
-                      simd::load<V>(offset.z.data() + i));
+          moments.add(simd::load<V>(offset[0].data() + i), simd::load<V>(offset[1].data() + i),
+                      simd::load<V>(offset[2].data() + i));
         }
         Best<V> now;
         now.k = V{} + static_cast<double>(k);
@@ -98,20 +126,20 @@ struct ScaleBatch::Kernel {
 };
 
 ScaleBatch::ScaleBatch(const ScaleRange& range)
-    : range_(range), offsets_(static_cast<std::size_t>(std::max(range.k_max, 0))) {}
+    : range_(range),
+      offsets_(simd::padded(static_cast<std::size_t>(std::max(range.k_max, 0)))),
+      nothing_(offsets_.size()) {
+  for (auto& row : rows_) row.fill(nothing_.data());
+}
 
 void ScaleBatch::set(std::size_t i, const Neighbours& neighbours) {
-  const std::size_t count = std::min(neighbours.count, offsets_.size());
-  for (std::size_t j = 0; j < count; ++j) {
-    offsets_[j].x[i] = neighbours.dx[j];
-    offsets_[j].y[i] = neighbours.dy[j];
-    offsets_[j].z[i] = neighbours.dz[j];
-  }
-  count_[i] = static_cast<double>(count);
+  rows_[i] = {neighbours.dx.data(), neighbours.dy.data(), neighbours.dz.data()};
+  count_[i] = static_cast<double>(neighbours.count);
 }
 
 void ScaleBatch::solve() {
   simd::dispatch<Kernel>(*this);
+  for (auto& row : rows_) row.fill(nothing_.data());
 }
 
 ScaleChoice ScaleBatch::choice(std::size_t i) const {

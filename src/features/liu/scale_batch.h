@@ -18,7 +18,8 @@ class ScaleBatch {
 
   explicit ScaleBatch(const ScaleRange& range);
 
-  /// @param neighbours  of query i; those beyond k_max are left out.
+  /// @param neighbours  of query i, of which those beyond k_max are left out; with room for k_max, and alive until
+  ///                    solve() returns.
   void set(std::size_t i, const Neighbours& neighbours);
   /// All eight; those that were never set give anything. O(k_max).
   void solve();
@@ -27,15 +28,16 @@ class ScaleBatch {
  private:
   struct Kernel;
   using Lanes = std::array<double, kCount>;
-  struct alignas(64) Offset {
-    Lanes x{}, y{}, z{};
-  };
+  using Row = std::array<const double*, 3>;  ///< x, y, z of the neighbours of one query.
   struct alignas(64) Choices {
     Lanes k{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{}, largest{}, middle{}, smallest{};
   };
 
   ScaleRange range_;
+  std::array<Row, kCount> rows_;
+  struct alignas(64) Offset : std::array<Lanes, 3> {};
   std::vector<Offset> offsets_;  ///< Of the j-th neighbours of all queries.
+  std::vector<double> nothing_;  ///< The row of a query that was not set.
   alignas(64) Lanes count_{};
   Choices choices_;
 };
