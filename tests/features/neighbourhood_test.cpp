@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 #include <tuple>
 #include <type_traits>
 
@@ -13,6 +14,7 @@
 #include "features/neighbourhood/distance_row.h"
 #include "features/neighbourhood/local_spacing.h"
 #include "features/neighbourhood/nearest_select.h"
+#include "features/neighbourhood/outer_box.h"
 #include "features/neighbourhood/spacing_batch.h"
 #include "random_clouds.h"
 
@@ -26,6 +28,16 @@ PointTree tree_of(const TilePoints& tile) {
   return {tile.positions, tile.ids};
 }
 
+double exact_squared_distance(const ClosedBox& a, const ClosedBox& b) {
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double gap =
+        std::max({static_cast<double>(a.min[axis]) - b.max[axis], static_cast<double>(b.min[axis]) - a.max[axis], 0.0});
+    sum += gap * gap;
+  }
+  return sum;
+}
+
 TEST(PointTree, EveryEntry_IsInOneBucketInsideItsBox) {
   for (const std::size_t points : {1, 2, 33, 1000, 4097}) {
     const TilePoints tile = test::tile_of(random_positions(Shape::kVolume, points, 5000.0, points), 1);
@@ -33,7 +45,7 @@ TEST(PointTree, EveryEntry_IsInOneBucketInsideItsBox) {
     ASSERT_EQ(tree.size(), tile.positions.size());
     std::vector<int> seen(tree.size());
     const ClosedBox all{{INT32_MIN, INT32_MIN, INT32_MIN}, {INT32_MAX, INT32_MAX, INT32_MAX}};
-    tree.visit_near(all, 0.0, [&](std::size_t begin, std::size_t end, const ClosedBox& box) {
+    tree.visit_near(all, 0.0, [&](std::size_t begin, std::size_t end, const OuterBox& box) {
       EXPECT_LE(end - begin, 32U);
       for (std::size_t slot = begin; slot < end; ++slot) {
         ++seen[tree.entry(slot)];
@@ -49,10 +61,41 @@ TEST(PointTree, EveryEntry_IsInOneBucketInsideItsBox) {
   }
 }
 
-TEST(PointTree, BoxDistance_IsExact) {
-  EXPECT_EQ(squared_distance({{0, 0, 0}, {1, 1, 1}}, {{4, 1, -3}, {5, 2, -2}}), 9.0 + 0.0 + 4.0);
-  EXPECT_EQ(squared_distance({{INT32_MIN, 0, 0}, {INT32_MIN, 0, 0}}, {{INT32_MAX, 0, 0}, {INT32_MAX, 0, 0}}),
-            4294967295.0 * 4294967295.0);
+TEST(OuterBox, Distance_IsExactForSmallCoordinates) {
+  const auto distance = [](const ClosedBox& a, const ClosedBox& b) {
+    return squared_distance(OuterBox(a), OuterBox(b));
+  };
+  EXPECT_EQ(distance({{0, 0, 0}, {1, 1, 1}}, {{4, 1, -3}, {5, 2, -2}}), 9.0F + 0.0F + 4.0F);
+  EXPECT_EQ(distance({{0, 0, 0}, {9, 9, 9}}, {{2, 3, 4}, {2, 3, 4}}), 0.0F);
+}
+
+TEST(OuterBox, AnyBox_IsInsideAndNoDistanceIsTooLong) {
+  std::mt19937_64 random(8);
+  std::uniform_int_distribution<std::int32_t> any(INT32_MIN, INT32_MAX);
+  const auto random_box = [&] {
+    ClosedBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.min[axis] = any(random);
+      box.max[axis] = std::max(box.min[axis], any(random) / 16);
+    }
+    return box;
+  };
+  const ClosedBox ends[] = {{{INT32_MIN, INT32_MIN, INT32_MIN}, {INT32_MIN, INT32_MIN, INT32_MIN}},
+                            {{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MAX, INT32_MAX, INT32_MAX}}};
+  for (int round = 0; round < 1000; ++round) {
+    const ClosedBox a = round < 2 ? ends[round] : random_box();
+    const ClosedBox b = round < 2 ? ends[1 - round] : random_box();
+    const OuterBox outer(a);
+    double exact = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      ASSERT_LE(static_cast<double>(outer.min[axis]), a.min[axis]);
+      ASSERT_GE(static_cast<double>(outer.max[axis]), a.max[axis]);
+      const double gap = std::max(
+          {static_cast<double>(a.min[axis]) - b.max[axis], static_cast<double>(b.min[axis]) - a.max[axis], 0.0});
+      exact += gap * gap;
+    }
+    ASSERT_LE(squared_distance(outer, OuterBox(b)), exact * (1.0 + kBoxDistanceError));
+  }
 }
 
 template <class T>
@@ -78,7 +121,7 @@ TYPED_TEST(Kernels, Gathering_HoldsEveryPointInReach) {
       }
       for (std::size_t slot = 0; slot < tree.size(); ++slot) {
         const LatticePoint p = tree.position(slot);
-        const double d2 = squared_distance(box, {{p.x, p.y, p.z}, {p.x, p.y, p.z}});
+        const double d2 = exact_squared_distance(box, {{p.x, p.y, p.z}, {p.x, p.y, p.z}});
         EXPECT_LE(have[slot], 1);
         if (d2 <= reach * reach) {
           EXPECT_EQ(have[slot], 1);

@@ -142,10 +142,10 @@ bool CandidateSet<T>::gather(const PointTree& tree, const ClosedBox& box, double
   products.exact = false;
   std::size_t n = 0;
   bool exact = true;
-  tree.visit_near(box, reach + 1.0, [&](std::size_t begin, std::size_t end, const ClosedBox& bucket) {
+  tree.visit_near(box, reach + 1.0, [&](std::size_t begin, std::size_t end, const OuterBox& bucket) {
     for (int axis = 0; axis < 3; ++axis) {
-      const std::int64_t offset = std::max(origin[axis] - bucket.min[axis], bucket.max[axis] - origin[axis]);
-      if (static_cast<double>(offset) > kExactSquares<T>) exact = false;
+      const auto from = static_cast<double>(origin[axis]);
+      if (std::max(from - bucket.min[axis], bucket.max[axis] - from) > kExactSquares<T>) exact = false;
     }
     if (!exact) return;
     make_room(n + (end - begin) + simd::kPadding);

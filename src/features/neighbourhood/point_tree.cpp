@@ -86,7 +86,7 @@ void select(std::span<Item> items, std::size_t nth, int axis) {
 
 struct Builder {
   std::vector<Item>& items;
-  std::vector<ClosedBox>& boxes;
+  std::vector<OuterBox>& boxes;
   int depth;
 
   /// Splits node `node` of level `level` at its middle, so that everything below stays balanced.
@@ -96,12 +96,13 @@ struct Builder {
     const std::size_t begin = begin_of(number, level);
     const std::size_t end = begin_of(number + 1, level);
     if (begin == end) return;
-    boxes[node] = box_of(std::span(items).subspan(begin, end - begin));
+    const ClosedBox box = box_of(std::span(items).subspan(begin, end - begin));
+    boxes[node] = OuterBox(box);
     if (level == depth) return;
     int axis = 0;
     std::int64_t longest = -1;
     for (int a = 0; a < 3; ++a) {
-      const std::int64_t side = std::int64_t{boxes[node].max[a]} - boxes[node].min[a];
+      const std::int64_t side = std::int64_t{box.max[a]} - box.min[a];
       if (side > longest) {
         longest = side;
         axis = a;

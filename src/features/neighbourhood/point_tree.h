@@ -8,30 +8,12 @@
 #include <vector>
 
 #include "core/lattice.h"
+#include "features/neighbourhood/outer_box.h"
 
 namespace arris {
 
-/// A closed box of lattice positions, both ends included.
-struct ClosedBox {
-  std::int32_t min[3];
-  std::int32_t max[3];
-};
-
-/// Lower bound of the squared distance between two boxes; exact below 2^53 steps².
-inline double squared_distance(const ClosedBox& a, const ClosedBox& b) {
-  double sum = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    // Differences of 32-bit integers are exact in double.
-    const double below = static_cast<double>(a.min[axis]) - b.max[axis];
-    const double above = static_cast<double>(b.min[axis]) - a.max[axis];
-    const double gap = std::max(std::max(below, above), 0.0);
-    sum += gap * gap;
-  }
-  return sum;
-}
-
 /// Positions sorted into 2^depth buckets of 16 to 32 points (fewer if there are fewer), bucket boxes tight. Buckets
-/// that are close in number are close in space. Building takes O(n log n), in parallel; 24 bytes per point and about 3
+/// that are close in number are close in space. Building takes O(n log n), in parallel; 24 bytes per point and about 4
 /// per point for boxes. Reading is thread-safe. Nothing that is found may depend on the tree's shape, which depends on
 /// the order of the entries.
 class PointTree {
@@ -51,18 +33,20 @@ class PointTree {
   std::uint32_t entry(std::size_t slot) const { return entries_[slot]; }
   LatticePoint position(std::size_t slot) const { return {x_[slot], y_[slot], z_[slot]}; }
 
-  /// Calls visit(begin, end, box of the bucket) for every non-empty bucket whose box is within `reach` steps of `box`.
+  /// Calls visit(begin, end, box of the bucket) for every non-empty bucket whose box is within `reach` steps of `box`,
+  /// and for some that are a little farther.
   template <class Visit>
   void visit_near(const ClosedBox& box, double reach, Visit&& visit) const {
     if (size() == 0) return;
-    const double limit = reach * reach * (1.0 + 1e-12);  // squared_distance may round.
+    const OuterBox around(box);
+    const auto limit = static_cast<float>(reach * reach * (1.0 + kBoxDistanceError));
     std::size_t stack[80];
     std::size_t top = 0;
     stack[top++] = 1;
     const std::size_t first_leaf = buckets();
     while (top > 0) {
       const std::size_t node = stack[--top];
-      if (squared_distance(box, boxes_[node]) > limit) continue;
+      if (squared_distance(around, boxes_[node]) > limit) continue;
       if (node < first_leaf) {
         stack[top++] = 2 * node + 1;
         stack[top++] = 2 * node;
@@ -80,7 +64,7 @@ class PointTree {
   std::vector<std::int32_t> x_, y_, z_;
   std::vector<std::uint32_t> entries_;
   std::vector<std::uint64_t> ids_;
-  std::vector<ClosedBox> boxes_;  ///< Heap order: node 1 is the root, children 2i and 2i + 1.
+  std::vector<OuterBox> boxes_;  ///< Heap order: node 1 is the root, children 2i and 2i + 1.
 };
 
 }  // namespace arris
