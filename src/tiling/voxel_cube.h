@@ -1,0 +1,122 @@
+#pragma once
+/// @file Where the voxels around a voxel are found: blocks of an index side by side in a small cube.
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tiling/voxel_index.h"
+
+namespace arris::tiling {
+
+namespace cube {
+
+constexpr int kAround = 27;
+/// Cells along a side: two blocks and a layer on both sides.
+constexpr int kSide = 2 * VoxelIndex::kBlockSide + 2;
+constexpr int cell_of(int x, int y, int z) {
+  return (x * kSide + y) * kSide + z;
+}
+/// From a cell to those around it, in ascending (dx, dy, dz).
+constexpr std::array<int, kAround> offsets() {
+  std::array<int, kAround> cells{};
+  for (int i = 0; i < kAround; ++i) cells[i] = cell_of(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1);
+  return cells;
+}
+/// Cells of the places in a block, from the block's first.
+constexpr std::array<std::uint16_t, VoxelIndex::kBlockParts * 64> cells_of_places() {
+  std::array<std::uint16_t, VoxelIndex::kBlockParts * 64> cells{};
+  for (int x = 0; x < VoxelIndex::kBlockSide; ++x) {
+    for (int y = 0; y < VoxelIndex::kBlockSide; ++y) {
+      for (int z = 0; z < VoxelIndex::kBlockSide; ++z)
+        cells[VoxelIndex::place_in_block({x, y, z})] = static_cast<std::uint16_t>(cell_of(x, y, z));
+    }
+  }
+  return cells;
+}
+
+}  // namespace cube
+
+/// Blocks whose keys differ in the last bit of each axis, at most 2x2x2 and side by side in Z-order: [begin, end).
+struct BlockGroup {
+  std::size_t begin;
+  std::size_t end;
+};
+BlockGroup block_group(const VoxelIndex& index, std::size_t block);
+
+/// The voxels of a group of blocks with one layer of voxels around them, where neighbours lie at fixed offsets. Which
+/// cells hold voxels is known by bits, so that nothing is asked of those that do not. One per thread: it is used again.
+class VoxelCube {
+ public:
+  /// @param ranks  remember ranks; else rank() must not be asked.
+  VoxelCube(const VoxelIndex& index, bool ranks) : index_(index), ranks_(ranks ? kCells : 0) {}
+
+  void load(const BlockGroup& group);
+
+  /// Calls use(cell, bits of the neighbours) for the voxels of a block of the group in ascending ranks. Bits are in
+  /// ascending (dx, dy, dz); a voxel is no neighbour of itself.
+  template <class Use>
+  void for_each_voxel(std::size_t block, Use&& use) const {
+    const int first = first_cell(index_.block(block).key);
+    for (std::uint32_t part = 0; part < VoxelIndex::kBlockParts; ++part) {
+      for_each_bit(index_.part(block, part).bits, [&](std::uint32_t bit) {
+        const int cell = first + kCellOfPlace[part * kPartPlaces + bit];
+        use(cell, around(cell));
+      });
+    }
+  }
+  /// Calls use(rank) for neighbours of the voxel of a cell.
+  template <class Use>
+  void for_each_neighbour(int cell, std::uint32_t neighbours, Use&& use) const {
+    for_each_bit(neighbours, [&](std::uint32_t i) { use(ranks_[static_cast<std::size_t>(cell + kOffsets[i])]); });
+  }
+
+ private:
+  static constexpr int kSide = cube::kSide;
+  static constexpr std::size_t kCells = kSide * kSide * kSide;
+  static constexpr std::uint32_t kPartPlaces = 64;
+  static constexpr auto kOffsets = cube::offsets();
+  static constexpr auto kCellOfPlace = cube::cells_of_places();
+
+  /// The first cell of a block of the group; those around begin one layer before.
+  static int first_cell(const LatticePoint& block) {
+    return cube::cell_of(1, 1, 1) + VoxelIndex::kBlockSide * cube::cell_of(block.x & 1, block.y & 1, block.z & 1);
+  }
+
+  /// Calls use(bit number) for the bits that are set, lowest first.
+  template <class Word, class Use>
+  static void for_each_bit(Word word, Use&& use) {
+    for (; word != 0; word &= word - 1) use(static_cast<std::uint32_t>(std::countr_zero(word)));
+  }
+
+  std::uint32_t around(int cell) const {
+    const int row = cell / kSide;
+    const int below = cell % kSide - 1;
+    std::uint32_t bits = 0;
+    for (int i = 0; i < 9; ++i) {
+      const auto at = static_cast<std::size_t>(row + (i / 3 - 1) * kSide + i % 3 - 1);
+      bits |= (rows_[at] >> below & 7U) << 3 * i;
+    }
+    return bits & ~(1U << cube::kAround / 2);
+  }
+
+  /// @param places  those of the block that are wanted, a word per part.
+  void add(std::uint32_t block, const std::array<std::uint64_t, VoxelIndex::kBlockParts>& places, int first_cell);
+  /// Blocks come in Z-order: most of those around a group were around the one before.
+  std::uint32_t find(const LatticePoint& block);
+
+  struct Found {
+    LatticePoint key;
+    std::uint32_t index = 0;
+    bool known = false;
+  };
+
+  const VoxelIndex& index_;
+  std::vector<Found> recent_ = std::vector<Found>(2048);
+  std::array<std::uint32_t, kSide * kSide> rows_{};  // A bit per cell.
+  std::vector<std::uint32_t> ranks_;                 // Per cell; right where a bit says so.
+};
+
+}  // namespace arris::tiling
