@@ -1,6 +1,7 @@
 #include "tiling/voxel_neighbours.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/parallel.h"
 #include "tiling/voxel_cube.h"
@@ -36,6 +37,20 @@ void list_neighbours(const VoxelIndex& index, std::size_t begin, std::size_t end
 }
 
 }  // namespace
+
+void for_each_neighbourhood(
+    const VoxelIndex& index, std::size_t begin, std::size_t end,
+    const std::function<void(std::uint32_t rank, std::span<const std::uint32_t> neighbours)>& use) {
+  if (begin == end) return;
+  VoxelCube cube(index, true);
+  std::uint32_t rank = index.block(begin).first_rank;
+  std::array<std::uint32_t, cube::kAround> neighbours;
+  for_each_voxel(index, cube, begin, end, [&](int cell, std::uint32_t around) {
+    std::size_t count = 0;
+    cube.for_each_neighbour(cell, around, [&](std::uint32_t neighbour) { neighbours[count++] = neighbour; });
+    use(rank++, std::span(neighbours).first(count));
+  });
+}
 
 void link_neighbours(VoxelTile& tile, const VoxelIndex& index) {
   tile.neighbour_begin.resize(tile.size() + 1);
