@@ -96,15 +96,15 @@ LatticePoint group_of(const LatticePoint& block) {
 
 }  // namespace
 
-BlockGroup block_group(const VoxelIndex& index, std::size_t block) {
+BlockRange block_group(const VoxelIndex& index, std::size_t block) {
   const LatticePoint group = group_of(index.block(block).key);
-  BlockGroup found{block, block + 1};
+  BlockRange found{block, block + 1};
   while (found.begin > 0 && group_of(index.block(found.begin - 1).key) == group) --found.begin;
   while (found.end < index.blocks() && group_of(index.block(found.end).key) == group) ++found.end;
   return found;
 }
 
-void VoxelCube::load(const BlockGroup& group) {
+void VoxelCube::load(const BlockRange& group) {
   rows_.fill(0);
   std::array<Faces, 8> faces{};
   LatticePoint first;

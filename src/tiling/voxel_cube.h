@@ -39,12 +39,9 @@ constexpr std::array<std::uint16_t, VoxelIndex::kBlockParts * 64> cells_of_place
 
 }  // namespace cube
 
-/// Blocks whose keys differ in the last bit of each axis, at most 2x2x2 and side by side in Z-order: [begin, end).
-struct BlockGroup {
-  std::size_t begin;
-  std::size_t end;
-};
-BlockGroup block_group(const VoxelIndex& index, std::size_t block);
+/// The blocks whose keys differ from that of one in the last bit of each axis only: at most 2x2x2, side by side in
+/// Z-order.
+BlockRange block_group(const VoxelIndex& index, std::size_t block);
 
 /// The voxels of a group of blocks with one layer of voxels around them, where neighbours lie at fixed offsets. Which
 /// cells hold voxels is known by bits, so that nothing is asked of those that do not. One per thread: it is used again.
@@ -53,7 +50,7 @@ class VoxelCube {
   /// @param ranks  remember ranks; else rank() must not be asked.
   VoxelCube(const VoxelIndex& index, bool ranks) : index_(index), ranks_(ranks ? kCells : 0) {}
 
-  void load(const BlockGroup& group);
+  void load(const BlockRange& group);
 
   /// Calls use(cell, bits of the neighbours) for the voxels of a block of the group in ascending ranks. Bits are in
   /// ascending (dx, dy, dz); a voxel is no neighbour of itself.

@@ -15,7 +15,7 @@ constexpr std::size_t kGrain = 256;  // Blocks.
 template <class Use>
 void for_each_voxel(const VoxelIndex& index, VoxelCube& cube, std::size_t begin, std::size_t end, Use&& use) {
   for (std::size_t block = begin; block < end;) {
-    const BlockGroup group = block_group(index, block);
+    const BlockRange group = block_group(index, block);
     cube.load(group);
     for (const std::size_t last = std::min(group.end, end); block < last; ++block) cube.for_each_voxel(block, use);
   }
