@@ -104,7 +104,8 @@ BlockRange block_group(const VoxelIndex& index, std::size_t block) {
   return found;
 }
 
-void VoxelCube::load(const BlockRange& group) {
+template <bool kRanks>
+void VoxelCube<kRanks>::load(const BlockRange& group) {
   rows_.fill(0);
   std::array<Faces, 8> faces{};
   LatticePoint first;
@@ -121,27 +122,31 @@ void VoxelCube::load(const BlockRange& group) {
     // Keys of blocks have 29 bits, so their neighbours' fit.
     const std::uint32_t block = find({first.x + place.at[0], first.y + place.at[1], first.z + place.at[2]});
     if (block == VoxelIndex::kNone) continue;
-    add(block, kLayers[place.layer],
-        cube::cell_of(1, 1, 1) + kBlock * cube::cell_of(place.at[0], place.at[1], place.at[2]));
+    add(block, kLayers[place.layer], first_cell(place.at[0], place.at[1], place.at[2]));
   }
 }
 
-void VoxelCube::add(std::uint32_t block, const Words& places, int first_cell) {
+template <bool kRanks>
+void VoxelCube<kRanks>::add(std::uint32_t block, const Words& places, cube::RowCell first) {
   for (std::uint32_t part = 0; part < kParts; ++part) {
     if (places[part] == 0) continue;
     const VoxelIndex::Part voxels = index_.part(block, part);
     for_each_bit(voxels.bits & places[part], [&](std::uint32_t bit) {
-      const int cell = first_cell + kCellOfPlace[part * kPartPlaces + bit];
-      rows_[static_cast<std::size_t>(cell / kSide)] |= 1U << cell % kSide;
-      if (!ranks_.empty()) ranks_[static_cast<std::size_t>(cell)] = voxels.rank(bit);
+      const cube::RowCell at = kCellOfPlace[part * kPartPlaces + bit];
+      rows_[static_cast<std::size_t>(first.row + at.row)] |= 1U << (first.z + at.z);
+      if constexpr (kRanks) ranks_[static_cast<std::size_t>(first.cell() + at.cell())] = voxels.rank(bit);
     });
   }
 }
 
-std::uint32_t VoxelCube::find(const LatticePoint& block) {
+template <bool kRanks>
+std::uint32_t VoxelCube<kRanks>::find(const LatticePoint& block) {
   Found& slot = recent_[static_cast<std::size_t>((block.x & 15) | (block.y & 15) << 4 | (block.z & 7) << 8)];
   if (!slot.known || slot.key != block) slot = {block, index_.find_block(block), true};
   return slot.index;
 }
+
+template class VoxelCube<false>;
+template class VoxelCube<true>;
 
 }  // namespace arris::tiling

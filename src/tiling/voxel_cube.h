@@ -25,13 +25,21 @@ constexpr std::array<int, kAround> offsets() {
   for (int i = 0; i < kAround; ++i) cells[i] = cell_of(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1);
   return cells;
 }
-/// Cells of the places in a block, from the block's first.
-constexpr std::array<std::uint16_t, VoxelIndex::kBlockParts * 64> cells_of_places() {
-  std::array<std::uint16_t, VoxelIndex::kBlockParts * 64> cells{};
+/// A row of cells along z, and a cell in it.
+struct RowCell {
+  std::int16_t row;
+  std::int16_t z;
+  constexpr int cell() const { return row * kSide + z; }
+};
+constexpr RowCell row_cell(int x, int y, int z) {
+  return {static_cast<std::int16_t>(x * kSide + y), static_cast<std::int16_t>(z)};
+}
+/// Of the places in a block, from the block's first.
+constexpr std::array<RowCell, VoxelIndex::kBlockParts * 64> cells_of_places() {
+  std::array<RowCell, VoxelIndex::kBlockParts * 64> cells{};
   for (int x = 0; x < VoxelIndex::kBlockSide; ++x) {
     for (int y = 0; y < VoxelIndex::kBlockSide; ++y) {
-      for (int z = 0; z < VoxelIndex::kBlockSide; ++z)
-        cells[VoxelIndex::place_in_block({x, y, z})] = static_cast<std::uint16_t>(cell_of(x, y, z));
+      for (int z = 0; z < VoxelIndex::kBlockSide; ++z) cells[VoxelIndex::place_in_block({x, y, z})] = row_cell(x, y, z);
     }
   }
   return cells;
@@ -45,10 +53,12 @@ BlockRange block_group(const VoxelIndex& index, std::size_t block);
 
 /// The voxels of a group of blocks with one layer of voxels around them, where neighbours lie at fixed offsets. Which
 /// cells hold voxels is known by bits, so that nothing is asked of those that do not. One per thread: it is used again.
+///
+/// kRanks: remembers ranks; else only bits are known.
+template <bool kRanks>
 class VoxelCube {
  public:
-  /// @param ranks  remember ranks; else rank() must not be asked.
-  VoxelCube(const VoxelIndex& index, bool ranks) : index_(index), ranks_(ranks ? kCells : 0) {}
+  explicit VoxelCube(const VoxelIndex& index) : index_(index) {}
 
   void load(const BlockRange& group);
 
@@ -56,11 +66,11 @@ class VoxelCube {
   /// ascending (dx, dy, dz); a voxel is no neighbour of itself.
   template <class Use>
   void for_each_voxel(std::size_t block, Use&& use) const {
-    const int first = first_cell(index_.block(block).key);
+    const cube::RowCell first = first_cell(index_.block(block).key);
     for (std::uint32_t part = 0; part < VoxelIndex::kBlockParts; ++part) {
       for_each_bit(index_.part(block, part).bits, [&](std::uint32_t bit) {
-        const int cell = first + kCellOfPlace[part * kPartPlaces + bit];
-        use(cell, around(cell));
+        const cube::RowCell at = kCellOfPlace[part * kPartPlaces + bit];
+        use(first.cell() + at.cell(), around(first.row + at.row, first.z + at.z));
       });
     }
   }
@@ -77,9 +87,13 @@ class VoxelCube {
   static constexpr auto kOffsets = cube::offsets();
   static constexpr auto kCellOfPlace = cube::cells_of_places();
 
-  /// The first cell of a block of the group; those around begin one layer before.
-  static int first_cell(const LatticePoint& block) {
-    return cube::cell_of(1, 1, 1) + VoxelIndex::kBlockSide * cube::cell_of(block.x & 1, block.y & 1, block.z & 1);
+  /// The first cell of the block at a place in the group or beside it.
+  static cube::RowCell first_cell(int x, int y, int z) {
+    constexpr int kBlock = VoxelIndex::kBlockSide;
+    return cube::row_cell(1 + kBlock * x, 1 + kBlock * y, 1 + kBlock * z);
+  }
+  static cube::RowCell first_cell(const LatticePoint& block) {
+    return first_cell(block.x & 1, block.y & 1, block.z & 1);
   }
 
   /// Calls use(bit number) for the bits that are set, lowest first.
@@ -88,9 +102,8 @@ class VoxelCube {
     for (; word != 0; word &= word - 1) use(static_cast<std::uint32_t>(std::countr_zero(word)));
   }
 
-  std::uint32_t around(int cell) const {
-    const int row = cell / kSide;
-    const int below = cell % kSide - 1;
+  std::uint32_t around(int row, int z) const {
+    const int below = z - 1;
     std::uint32_t bits = 0;
     for (int i = 0; i < 9; ++i) {
       const auto at = static_cast<std::size_t>(row + (i / 3 - 1) * kSide + i % 3 - 1);
@@ -100,7 +113,7 @@ class VoxelCube {
   }
 
   /// @param places  those of the block that are wanted, a word per part.
-  void add(std::uint32_t block, const std::array<std::uint64_t, VoxelIndex::kBlockParts>& places, int first_cell);
+  void add(std::uint32_t block, const std::array<std::uint64_t, VoxelIndex::kBlockParts>& places, cube::RowCell first);
   /// Blocks come in Z-order: most of those around a group were around the one before.
   std::uint32_t find(const LatticePoint& block);
 
@@ -113,7 +126,11 @@ class VoxelCube {
   const VoxelIndex& index_;
   std::vector<Found> recent_ = std::vector<Found>(2048);
   std::array<std::uint32_t, kSide * kSide> rows_{};  // A bit per cell.
-  std::vector<std::uint32_t> ranks_;                 // Per cell; right where a bit says so.
+  // Per cell; right where a bit says so.
+  std::vector<std::uint32_t> ranks_ = std::vector<std::uint32_t>(kRanks ? kCells : 0);
 };
+
+extern template class VoxelCube<false>;
+extern template class VoxelCube<true>;
 
 }  // namespace arris::tiling

@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t kGrain = 256;  // Blocks.
 
 /// Calls use(cell, bits of the neighbours) for the voxels of some blocks in ascending ranks.
-template <class Use>
-void for_each_voxel(const VoxelIndex& index, VoxelCube& cube, std::size_t begin, std::size_t end, Use&& use) {
+template <bool kRanks, class Use>
+void for_each_voxel(const VoxelIndex& index, VoxelCube<kRanks>& cube, std::size_t begin, std::size_t end, Use&& use) {
   for (std::size_t block = begin; block < end;) {
     const BlockRange group = block_group(index, block);
     cube.load(group);
@@ -23,14 +23,14 @@ void for_each_voxel(const VoxelIndex& index, VoxelCube& cube, std::size_t begin,
 
 /// How many neighbours the voxels of some blocks have, in counts[rank].
 void count_neighbours(const VoxelIndex& index, std::size_t begin, std::size_t end, std::uint32_t* counts) {
-  VoxelCube cube(index, false);
+  VoxelCube<false> cube(index);
   std::uint32_t* count = counts + index.block(begin).first_rank;
   for_each_voxel(index, cube, begin, end, [&](int, std::uint32_t around) { *count++ = VoxelIndex::ones(around); });
 }
 
 /// Those neighbours, from `list` on.
 void list_neighbours(const VoxelIndex& index, std::size_t begin, std::size_t end, std::uint32_t* list) {
-  VoxelCube cube(index, true);
+  VoxelCube<true> cube(index);
   for_each_voxel(index, cube, begin, end, [&](int cell, std::uint32_t around) {
     cube.for_each_neighbour(cell, around, [&](std::uint32_t rank) { *list++ = rank; });
   });
@@ -42,7 +42,7 @@ void for_each_neighbourhood(
     const VoxelIndex& index, std::size_t begin, std::size_t end,
     const std::function<void(std::uint32_t rank, std::span<const std::uint32_t> neighbours)>& use) {
   if (begin == end) return;
-  VoxelCube cube(index, true);
+  VoxelCube<true> cube(index);
   std::uint32_t rank = index.block(begin).first_rank;
   std::array<std::uint32_t, cube::kAround> neighbours;
   for_each_voxel(index, cube, begin, end, [&](int cell, std::uint32_t around) {
