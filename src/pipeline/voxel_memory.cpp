@@ -97,6 +97,12 @@ std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const Sup
   return static_cast<std::uint64_t>(std::min(all, kOfBudget * static_cast<double>(budget_bytes)));
 }
 
+std::uint64_t more_than_fits(std::uint64_t budget_bytes, std::uint64_t bytes) {
+  const auto usable = static_cast<std::uint64_t>(kSafety * static_cast<double>(budget_bytes));
+  const std::uint64_t needed = resident_bytes() + bytes;
+  return needed > usable ? needed - usable : 0;
+}
+
 std::uint64_t raised_budget_bytes(std::uint64_t budget_bytes, std::uint64_t more_bytes) {
   return budget_bytes + static_cast<std::uint64_t>(static_cast<double>(more_bytes) / kSafety) + kSpareBytes;
 }
