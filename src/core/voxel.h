@@ -48,17 +48,14 @@ class VoxelGrid {
 /// Colours as they are stored in the inputs, 16 bits per channel.
 using RawColour = std::array<std::uint16_t, 3>;
 
-/// A voxel that holds points. 36 bytes, no padding.
+/// A voxel that holds points.
 struct Voxel {
   LatticePoint key;  ///< (i, j, k).
   std::array<std::uint32_t, 3>
-      centroid{};  ///< Mean of its points from its lowest corner, in 1 / kVoxelFractions steps, nearest (half up).
-  std::uint32_t points = 0;  ///< Saturates at 2^32 - 1.
-  RawColour colour{};        ///< Mean of its points, nearest (half up); 0 without colours.
-  std::uint16_t reserved = 0;
+      centroid{};      ///< Mean of its points from its lowest corner, in 1 / kVoxelFractions steps, nearest (half up).
+  RawColour colour{};  ///< Mean of its points, nearest (half up); 0 without colours.
 
   friend bool operator==(const Voxel&, const Voxel&) = default;
 };
-static_assert(sizeof(Voxel) == 36);
 
 }  // namespace arris

@@ -16,24 +16,45 @@ constexpr double kLeastWidth = 1e-6;
 
 }  // namespace
 
-SupervoxelMoments::SupervoxelMoments(std::uint32_t count, std::int64_t reach_steps) : sums_(std::size_t{count} + 1) {
+SupervoxelMoments::SupervoxelMoments(std::uint32_t count, std::int64_t reach_steps) : first_(std::size_t{count} + 1) {
   const auto bits =
       static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(reach_steps, 1))));
   shift_ = std::max(0, bits - kOffsetBits);
 }
 
-std::uint64_t SupervoxelMoments::bytes_per_supervoxel() {
-  // The sums, and the table with about 8 neighbours each.
-  return sizeof(Sums) + sizeof(std::array<float, 3>) + sizeof(std::array<double, 3>) + 2 * sizeof(float) +
-         9 * sizeof(std::uint32_t);
+std::uint64_t SupervoxelMoments::most_bytes(std::uint64_t count, std::uint64_t points, std::uint64_t pairs) {
+  const std::uint64_t of_several = std::min(count, points - std::min(points, count));  // None is empty.
+  constexpr std::uint64_t kRowBytes = sizeof(std::array<float, 3>) + sizeof(std::array<double, 3>) + 2 * sizeof(float);
+  // A row, and where its neighbours begin, twice while they are listed.
+  return count * (sizeof(First) + kRowBytes + 2 * sizeof(std::uint32_t)) + of_several * sizeof(Sums) +
+         2 * pairs * sizeof(std::uint32_t);
+}
+
+const SupervoxelMoments::Sums& SupervoxelMoments::sums_of(std::uint32_t id) const {
+  static constexpr Sums kNone{}, kOne{1};
+  const std::uint32_t sums = first_[id].sums;
+  return sums == kNoPoint ? kNone : sums == kOnePoint ? kOne : sums_[sums];
+}
+
+std::uint64_t SupervoxelMoments::points(std::uint32_t id) const {
+  return sums_of(id).points;
 }
 
 void SupervoxelMoments::add(std::uint32_t id, const LatticePoint& p) {
-  Sums& s = sums_[id];
-  if (s.points++ == 0) s.origin = p;
-  const std::int64_t x = (std::int64_t{p.x} - s.origin.x) >> shift_;
-  const std::int64_t y = (std::int64_t{p.y} - s.origin.y) >> shift_;
-  const std::int64_t z = (std::int64_t{p.z} - s.origin.z) >> shift_;
+  First& first = first_[id];
+  if (first.sums == kNoPoint) {  // Its offsets are 0.
+    first = {p, kOnePoint};
+    return;
+  }
+  if (first.sums == kOnePoint) {
+    first.sums = static_cast<std::uint32_t>(sums_.size());
+    sums_.push_back({1});
+  }
+  Sums& s = sums_[first.sums];
+  ++s.points;
+  const std::int64_t x = (std::int64_t{p.x} - first.origin.x) >> shift_;
+  const std::int64_t y = (std::int64_t{p.y} - first.origin.y) >> shift_;
+  const std::int64_t z = (std::int64_t{p.z} - first.origin.z) >> shift_;
   s.first[0] += x;
   s.first[1] += y;
   s.first[2] += z;
@@ -47,19 +68,20 @@ void SupervoxelMoments::add(std::uint32_t id, const LatticePoint& p) {
 
 SupervoxelTable SupervoxelMoments::table(std::span<const std::pair<std::uint32_t, std::uint32_t>> adjacency) const {
   SupervoxelTable table;
-  const std::size_t size = sums_.size();
+  const std::size_t size = first_.size();
   table.normal.resize(size);
   table.centroid.resize(size);
   table.spacing.resize(size);
   table.thickness.resize(size);
   const double unit = std::ldexp(1.0, shift_);
-  for (std::size_t id = 1; id < size; ++id) {
-    const Sums& s = sums_[id];
+  for (std::uint32_t id = 1; id < size; ++id) {
+    const Sums& s = sums_of(id);
     if (s.points == 0) continue;
     const double n = static_cast<double>(s.points);
     const std::array<double, 3> mean{static_cast<double>(s.first[0]) / n, static_cast<double>(s.first[1]) / n,
                                      static_cast<double>(s.first[2]) / n};
-    table.centroid[id] = {s.origin.x + unit * mean[0], s.origin.y + unit * mean[1], s.origin.z + unit * mean[2]};
+    const LatticePoint& origin = first_[id].origin;
+    table.centroid[id] = {origin.x + unit * mean[0], origin.y + unit * mean[1], origin.z + unit * mean[2]};
     const auto moment = [&](std::size_t i, std::size_t a, std::size_t b) {
       return static_cast<double>(s.second[i]) / n - mean[a] * mean[b];
     };

@@ -39,6 +39,7 @@ std::unique_ptr<const LabelledScene> label_scene(io::InputSet& inputs, const Job
           {plan.method.supervoxel, plan.scale, request.memory_bytes, request.tile_points_cap, true, folder}, progress,
           cancel),
       {}});
+  require_room_for_moments(labelled->scene, request.memory_bytes);
   merge::SupervoxelMoments moments(labelled->scene.clusters.count, kReachCells * plan.scale.seed_steps);
   const tiling::LatticeMapper mapper(inputs.sources(), plan.survey.lattice);
   sum_moments(inputs, {mapper, labelled->scene.labels(), progress, cancel}, moments);

@@ -109,6 +109,7 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   const tiling::LatticeMapper mapper(inputs.sources(), survey.lattice);
   const LabelPass pass{mapper, scene.labels(), sink, cancel};
   if (!request.table.empty()) {
+    require_room_for_moments(scene, request.memory_bytes);
     merge::SupervoxelMoments moments(clusters.count, kReachCells * scale.seed_steps);
     sum_moments(inputs, pass, moments);
     write_supervoxel_table(request.table, moments.table(clusters.adjacency), moments, survey.lattice,

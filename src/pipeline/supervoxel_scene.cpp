@@ -1,9 +1,14 @@
 #include "pipeline/supervoxel_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
+#include "core/error.h"
 #include "core/process_memory.h"
+#include "core/text.h"
+#include "merge/supervoxel_moments.h"
 #include "pipeline/voxel_memory.h"
 #include "pipeline/voxel_stage.h"
 
@@ -25,6 +30,17 @@ SupervoxelScene make_supervoxel_scene(io::InputSet& inputs, const tiling::Survey
   const std::uint64_t peak_temp =
       std::max(voxels.peak_temp_bytes, voxels.store.bytes_on_disk() + clusters.normals_bytes_on_disk);
   return {std::move(voxels.store), std::move(clusters), voxels.colours, peak_temp, predicted};
+}
+
+void require_room_for_moments(const SupervoxelScene& scene, std::uint64_t budget_bytes) {
+  const SupervoxelStageResult& clusters = scene.clusters;
+  const std::uint64_t bytes =
+      merge::SupervoxelMoments::most_bytes(clusters.count, scene.store.points(), clusters.adjacency.size());
+  const std::uint64_t more = more_than_fits(budget_bytes, bytes);
+  if (more == 0) return;
+  throw BudgetError(fmt::format(
+      "the table of {} supervoxels does not fit; run with at least --memory {}, or with larger --voxel or --seed",
+      grouped(clusters.count), budget_text(raised_budget_bytes(budget_bytes, more))));
 }
 
 }  // namespace arris::pipeline

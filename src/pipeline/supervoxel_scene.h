@@ -39,6 +39,9 @@ struct SupervoxelScene {
   VoxelLabels labels() const { return VoxelLabels(store, clusters); }
 };
 
+/// Throws BudgetError unless the moments of all supervoxels and their table fit beside what is resident.
+void require_room_for_moments(const SupervoxelScene& scene, std::uint64_t budget_bytes);
+
 /// Voxel pass and clustering. Throws BudgetError, IoError, Cancelled, and what reading throws.
 SupervoxelScene make_supervoxel_scene(io::InputSet& inputs, const tiling::Survey& survey,
                                       const SupervoxelSceneRequest& request, ProgressSink& progress,

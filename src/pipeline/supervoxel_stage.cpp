@@ -8,14 +8,12 @@
 #include "features/supervoxel/clusters.h"
 #include "pipeline/cluster_level.h"
 #include "pipeline/coarser_voxels.h"
+#include "tiling/voxel_neighbours.h"
 
 namespace arris::pipeline {
 namespace {
 
-/// More than a leftover voxel can take: table, index, tile with histograms, cluster.
-constexpr std::uint64_t kCoarseBytes = 700;
-constexpr std::uint64_t kLeastCoarseBytes = 8 * 1024 * 1024;
-constexpr std::size_t kGrain = 16 * 1024;
+constexpr std::size_t kGrainBlocks = 2048;
 
 /// Takes turns with coarser voxels until every voxel of `walk` has a cluster.
 ClusterLevel cluster_all(VoxelTileWalk& walk, const SupervoxelStageRequest& request, std::uint64_t kept_bytes,
@@ -23,18 +21,9 @@ ClusterLevel cluster_all(VoxelTileWalk& walk, const SupervoxelStageRequest& requ
   const TileWalkRequest& here = walk.request();
   const bool coarsest = !can_coarsen(here.scale);
   ClusterLevel level = cluster_level(walk, coarsest, kept_bytes, progress);
-  const auto leftovers =
-      static_cast<std::uint64_t>(std::count(level.clusters_of.begin(), level.clusters_of.end(), kNoCluster));
-  if (coarsest || leftovers == 0) return level;
-  // A tile that is kept need not be loaded again to look at neighbours; but it must not cost the coarser voxels their
-  // room.
-  std::uint64_t here_bytes = kept_bytes + sizeof(std::uint32_t) * level.clusters_of.size();
-  const std::uint64_t tile_bytes = walk.drop_features();
-  if (here_bytes + tile_bytes + leftovers * kCoarseBytes + kLeastCoarseBytes <= here.memory_bytes) {
-    here_bytes += tile_bytes;
-  } else {
-    walk.drop();
-  }
+  walk.drop();
+  if (coarsest || std::ranges::find(level.clusters_of, kNoCluster) == level.clusters_of.end()) return level;
+  const std::uint64_t here_bytes = kept_bytes + sizeof(std::uint32_t) * level.clusters_of.size();
   // Half of what is left: the other half is for reading these voxels.
   const std::uint64_t left_bytes = here.memory_bytes > here_bytes ? here.memory_bytes - here_bytes : 0;
   const tiling::VoxelStore coarse =
@@ -90,20 +79,22 @@ class Stage {
   void look_at_neighbours(const std::vector<std::uint32_t>& seed_ranks) {
     progress_.phase("neighbours", result_.ids.size());
     result_.shared.assign((result_.ids.size() + 63) / 64, 0);
-    auto& pairs = result_.adjacency;
-    walk_.for_each(TileView::kTouching, [&](const LoadedTile& tile) {
-      std::mutex mutex;
-      parallel_for_chunks(tile.voxels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        Pairs found;
-        for (std::size_t v = begin; v < end; ++v) {
-          if (tile.voxels.core[v] != 0) look_around(tile.voxels, v, found);
-        }
-        make_unique(found);
-        const std::lock_guard lock(mutex);
-        pairs.insert(pairs.end(), found.begin(), found.end());
+    const tiling::VoxelIndex& index = walk_.store().index();
+    std::mutex mutex;
+    parallel_for_chunks(index.blocks(), kGrainBlocks, [&](std::size_t begin, std::size_t end) {
+      cancel_.check();
+      Pairs found;
+      std::uint64_t voxels = 0;
+      tiling::for_each_neighbourhood(index, begin, end, [&](std::uint32_t rank, std::span<const std::uint32_t> around) {
+        look_around(rank, around, found);
+        ++voxels;
       });
-      make_unique(pairs);
+      make_unique(found);
+      const std::lock_guard lock(mutex);
+      result_.adjacency.insert(result_.adjacency.end(), found.begin(), found.end());
+      progress_.advance(voxels);
     });
+    make_unique(result_.adjacency);
     // Every supervoxel keeps at least the points of one voxel.
     for (const std::uint32_t rank : seed_ranks) result_.shared[rank >> 6] &= ~(std::uint64_t{1} << (rank & 63));
   }
@@ -115,13 +106,12 @@ class Stage {
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   }
 
-  void look_around(const VoxelTile& tile, std::size_t v, Pairs& pairs) {
-    const std::uint32_t rank = tile.ranks[v];
+  void look_around(std::uint32_t rank, std::span<const std::uint32_t> neighbours, Pairs& pairs) {
     const std::uint32_t id = result_.ids[rank];
     std::uint32_t last = id;
     bool shared = false;
-    for (const std::uint32_t u : tile.neighbours_of(v)) {
-      const std::uint32_t other = result_.ids[tile.ranks[u]];
+    for (const std::uint32_t neighbour : neighbours) {
+      const std::uint32_t other = result_.ids[neighbour];
       if (other == id || other == last) continue;
       last = other;
       if (request_.adjacency) pairs.emplace_back(std::min(id, other), std::max(id, other));

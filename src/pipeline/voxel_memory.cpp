@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "core/voxel.h"
 #include "features/supervoxel/voxel_features.h"
+#include "tiling/voxel_file.h"
 #include "tiling/voxel_order.h"
 #include "tiling/voxel_sums.h"
 
@@ -25,7 +26,6 @@ constexpr std::uint64_t kPassBytes = 16 * kMiB;
 constexpr std::uint64_t kSurveyBytes = 8 * kMiB;
 constexpr std::uint64_t kLeastTableBytes = 4 * kMiB;
 constexpr std::uint64_t kMostTableBytes = 96 * kMiB;
-constexpr double kStoreBytes = sizeof(Voxel);
 /// Of runs, where there are any: neighbours in the file are neighbours in space, but a street is scanned twice.
 constexpr double kRunEntries = 1.35;
 constexpr double kTableEntryBytes = sizeof(tiling::VoxelSums) + tiling::kOrderBytes;
@@ -97,6 +97,12 @@ std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const Sup
   return static_cast<std::uint64_t>(std::min(all, kOfBudget * static_cast<double>(budget_bytes)));
 }
 
+std::uint64_t more_than_fits(std::uint64_t budget_bytes, std::uint64_t bytes) {
+  const auto usable = static_cast<std::uint64_t>(kSafety * static_cast<double>(budget_bytes));
+  const std::uint64_t needed = resident_bytes() + bytes;
+  return needed > usable ? needed - usable : 0;
+}
+
 std::uint64_t raised_budget_bytes(std::uint64_t budget_bytes, std::uint64_t more_bytes) {
   return budget_bytes + static_cast<std::uint64_t>(static_cast<double>(more_bytes) / kSafety) + kSpareBytes;
 }
@@ -114,9 +120,10 @@ std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const Sup
   const bool runs = voxels * kTableEntryBytes > static_cast<double>(memory.table_bytes());
   const bool tiles =
       voxels * supervoxel_bytes_per_voxel(SupervoxelParameters::Features::kNormal, false, kNeighbours) > room;
+  const auto store_bytes = static_cast<double>(tiling::VoxelLayout(VoxelGrid(scale.voxel_steps), false).bytes());
   // Runs are gone when normals of tiles come.
   const double beside = std::max(runs ? kRunEntries * sizeof(tiling::VoxelSums) : 0.0, tiles ? kNormalBytes : 0.0);
-  return static_cast<std::uint64_t>(voxels * (kStoreBytes + beside));
+  return static_cast<std::uint64_t>(voxels * (store_bytes + beside));
 }
 
 }  // namespace arris::pipeline

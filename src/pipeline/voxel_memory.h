@@ -37,6 +37,8 @@ std::uint64_t likely_voxels(const tiling::Survey& survey, const SupervoxelScale&
 std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
                                          const SupervoxelParameters& parameters, std::uint64_t budget_bytes);
 
+/// How much is missing for so many bytes beside what is resident now; 0 if they fit.
+std::uint64_t more_than_fits(std::uint64_t budget_bytes, std::uint64_t bytes);
 /// The budget that leaves so much more than this one.
 std::uint64_t raised_budget_bytes(std::uint64_t budget_bytes, std::uint64_t more_bytes);
 

@@ -65,10 +65,9 @@ std::uint64_t VoxelTileWalk::largest_tile_voxels() const {
 LoadedTile VoxelTileWalk::load(const tiling::PlannedTile& tile, TileView view) const {
   if (view == TileView::kFeatures || plan_.tiles.size() == 1)
     return {tiling::load_voxel_tile(store_, tile, request_.colours), {}};
-  tiling::PlannedTile near = tile;
-  near.covered = view == TileView::kCore ? tile.core : tile.core.expanded(1);
-  if (view == TileView::kCore) return {tiling::load_voxels(store_, near, false), {}};
-  return {tiling::load_voxel_tile(store_, near, false), {}};
+  tiling::PlannedTile core = tile;
+  core.covered = tile.core;
+  return {tiling::load_voxels(store_, core, false), {}};
 }
 
 void VoxelTileWalk::describe(LoadedTile& tile) {
@@ -95,14 +94,6 @@ void VoxelTileWalk::for_each(TileView view, const std::function<void(const Loade
   if (!first_normals) return;
   normals_->finish();
   normals_known_ = true;
-}
-
-std::uint64_t VoxelTileWalk::drop_features() {
-  if (!loaded_) return 0;
-  loaded_->features = {};
-  const VoxelTile& tile = loaded_->voxels;
-  return tile.size() * (sizeof(LatticePoint) + sizeof(VoxelPosition) + 2 * sizeof(std::uint32_t) + 1) +
-         tile.colours.size() * sizeof(RawColour) + tile.neighbours.size() * sizeof(std::uint32_t);
 }
 
 void VoxelTileWalk::drop() {

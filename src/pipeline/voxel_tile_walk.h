@@ -16,10 +16,9 @@
 
 namespace arris::pipeline {
 
-/// What a walk over tiles looks at, from less to more.
+/// What a walk over tiles looks at.
 enum class TileView {
   kCore,      ///< Voxels of the core, without neighbours.
-  kTouching,  ///< Those, their neighbours, and what touches the core.
   kFeatures,  ///< All that is covered, with neighbours and features.
 };
 
@@ -59,8 +58,6 @@ class VoxelTileWalk {
   /// Calls use(tile) for every tile.
   void for_each(TileView view, const std::function<void(const LoadedTile&)>& use);
   void drop();  ///< Frees the tile that is kept, if any.
-  /// Frees its features only. Returns the bytes that stay in memory; 0 if no tile is kept.
-  std::uint64_t drop_features();
 
  private:
   /// Throws BudgetError if so much does not fit.

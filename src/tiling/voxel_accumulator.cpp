@@ -177,7 +177,9 @@ void VoxelAccumulator::add(std::span<const LatticePoint> positions, std::span<co
 
 VoxelStore VoxelAccumulator::finish() {
   Impl& impl = *impl_;
-  auto store = std::make_unique<VoxelStore::Impl>(impl.grid, impl.folder / "voxels.store", impl.write_bytes);
+  const bool colours =
+      impl.table->has_colours() || std::ranges::any_of(impl.runs, [](const auto& run) { return run->has_colours(); });
+  auto store = std::make_unique<VoxelStore::Impl>(impl.grid, impl.folder / "voxels.store", impl.write_bytes, colours);
   StoreFiller filler(store->file, store->index, impl.most_index_bytes);
   if (impl.runs.empty()) {
     impl.table->drain([&](const VoxelRecord& record) { filler.add(record); });

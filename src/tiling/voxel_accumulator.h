@@ -18,7 +18,8 @@ namespace arris::tiling {
 ///
 /// Memory: table_bytes, during add() as during finish(), and the index of the store. 52 bytes per voxel in the table,
 /// 64 with colours. Temporary disk: 28 bytes (40 with colours) per entry of a run, twice that while many runs are
-/// merged in rounds, and 36 per voxel of the store; a run has as many entries as there are voxels when neighbours in
+/// merged in rounds, and 6 (12 with colours; 6 more where voxels have more
+/// than 4096 steps) per voxel of the store; a run has as many entries as there are voxels when neighbours in
 /// the input are neighbours in space, as many as points at worst. One accumulator per folder at a time. Not
 /// thread-safe.
 class VoxelAccumulator {

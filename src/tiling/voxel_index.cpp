@@ -39,6 +39,30 @@ void VoxelIndex::finish() {
   if (size_ == 0) return;
   bounds_.include(least_);
   bounds_.include(most_);
+  add_slots();
+}
+
+VoxelIndex VoxelIndex::selection(std::span<const BlockRange> ranges) const {
+  VoxelIndex index;
+  for (const BlockRange& range : ranges) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      Entry entry = blocks_[i];
+      const std::uint32_t words = ones(entry.parts >> 24);
+      const std::uint64_t* const first = &words_[entry.first_word];
+      entry.first_rank = index.size_;
+      entry.first_word = static_cast<std::uint32_t>(index.words_.size());
+      for (std::uint32_t word = 0; word < words; ++word) index.words_.push_back(first[word]);
+      index.blocks_.push_back(entry);
+      index.size_ += first_rank(i + 1) - first_rank(i);
+      index.bounds_.include(key_at(entry.key, 0));
+      index.bounds_.include(key_at(entry.key, 64 * kBlockParts - 1));
+    }
+  }
+  if (index.size_ > 0) index.add_slots();
+  return index;
+}
+
+void VoxelIndex::add_slots() {
   blocks_.shrink_to_fit();
   words_.shrink_to_fit();
   slots_ = HashSlots(blocks_.size() * kSlotsPerBlock, blocks_.size());
@@ -46,6 +70,11 @@ void VoxelIndex::finish() {
     const std::uint32_t hash = voxel_hash(blocks_[i].key);
     slots_.set(slots_.find(hash, [](std::uint32_t) { return false; }), hash, static_cast<std::uint32_t>(i));
   }
+}
+
+std::size_t VoxelIndex::block_of_rank(std::uint32_t rank) const {
+  const std::span<const Entry> blocks = blocks_.span();
+  return static_cast<std::size_t>(std::ranges::upper_bound(blocks, rank, {}, &Entry::first_rank) - blocks.begin()) - 1;
 }
 
 std::uint32_t VoxelIndex::find_block(const LatticePoint& block) const {
@@ -100,8 +129,7 @@ void VoxelIndex::ranks_around(const LatticePoint& key, std::uint32_t& hint,
 
 VoxelIndex::Block VoxelIndex::block(std::size_t i) const {
   const Entry& entry = blocks_[i];
-  const std::uint32_t end = i + 1 < blocks_.size() ? blocks_[i + 1].first_rank : size_;
-  return {entry.key, entry.first_rank, end - entry.first_rank};
+  return {entry.key, entry.first_rank, first_rank(i + 1) - entry.first_rank};
 }
 
 }  // namespace arris::tiling

@@ -2,14 +2,23 @@
 /// @file Which voxels exist, in memory.
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/lattice.h"
 #include "tiling/growing_array.h"
 #include "tiling/hash_slots.h"
 
 namespace arris::tiling {
+
+/// Consecutive blocks of an index.
+struct BlockRange {
+  std::size_t begin;
+  std::size_t end;
+  friend bool operator==(const BlockRange&, const BlockRange&) = default;
+};
 
 /// Which voxels exist, and the rank of each in Z-order (morton.h). Blocks of 8x8x8 voxels with a bit per voxel: 40
 /// bytes per block and 8 per 4x4x4 part of it that is not empty; 1 to 3 bytes per voxel of a surface. Immutable once
@@ -24,6 +33,9 @@ class VoxelIndex {
   void append(const LatticePoint& key);
   /// Call after the last append().
   void finish();
+  /// An index of the voxels of some blocks, ascending ranges, whose ranks begin at 0. Its bounds are those of the
+  /// blocks.
+  VoxelIndex selection(std::span<const BlockRange> ranges) const;
 
   std::uint32_t size() const { return size_; }
   /// Rank of the voxel, kNone if it does not exist. O(1); fast for neighbours of the voxel asked for last if `hint`
@@ -57,6 +69,25 @@ class VoxelIndex {
   };
   std::size_t blocks() const { return blocks_.size(); }
   Block block(std::size_t i) const;  ///< In Z-order.
+  /// The first rank of a block; block may be blocks().
+  std::uint32_t first_rank(std::size_t block) const {
+    return block < blocks_.size() ? blocks_[block].first_rank : size_;
+  }
+  /// Calls use(key) for the voxels with ranks [begin, end), ascending.
+  template <class Use>
+  void for_each_key(std::uint32_t begin, std::uint32_t end, Use&& use) const {
+    std::uint32_t rank = begin;
+    for (std::size_t i = begin < end ? block_of_rank(begin) : 0; rank < end; ++i) {
+      const Entry& entry = blocks_[i];
+      for (std::uint32_t part = 0; part < kBlockParts && rank < end; ++part) {
+        const Part voxels = part_of(entry, part);
+        std::uint64_t bits = voxels.bits;
+        for (std::uint32_t at = voxels.first_rank; at < rank && bits != 0; ++at) bits &= bits - 1;
+        for (; bits != 0 && rank < end; bits &= bits - 1, ++rank)
+          use(key_at(entry.key, 64 * part + static_cast<std::uint32_t>(std::countr_zero(bits))));
+      }
+    }
+  }
   /// Index of the block with this key (voxel keys >> 3), kNone if it does not exist.
   std::uint32_t find_block(const LatticePoint& block_key) const;
 
@@ -94,6 +125,15 @@ class VoxelIndex {
   static_assert(sizeof(Entry) == 32);
 
   static constexpr std::array<std::uint8_t, 8> kSpread{0, 1, 8, 9, 64, 65, 72, 73};
+  /// The key at a place of a block.
+  static LatticePoint key_at(const LatticePoint& block, std::uint32_t place) {
+    const auto along = [place](std::uint32_t at) {
+      return static_cast<std::int32_t>((place >> at & 1) | (place >> (at + 3) & 1) << 1 | (place >> (at + 6) & 1) << 2);
+    };
+    return {block.x * kBlockSide + along(2), block.y * kBlockSide + along(1), block.z * kBlockSide + along(0)};
+  }
+  std::size_t block_of_rank(std::uint32_t rank) const;
+  void add_slots();
   Part part_of(const Entry& entry, std::uint32_t part) const {
     if ((entry.parts >> (24 + part) & 1) == 0) return {0, 0};
     const auto before = static_cast<std::uint32_t>(entry.before >> 9 * ((part - 1) & 7) & 511);

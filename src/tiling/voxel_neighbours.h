@@ -1,5 +1,10 @@
 #pragma once
-/// @file The 26-neighbourhoods of all voxels of a tile.
+/// @file The 26-neighbourhoods of voxels.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
 
 #include "core/voxel_tile.h"
 #include "tiling/voxel_index.h"
@@ -7,8 +12,14 @@
 namespace arris::tiling {
 
 /// Fills neighbour_begin and neighbours of `tile` from its keys. @param index  of exactly the tile's voxels.
-/// Goes block by block: the voxels of a block and those that touch it stand in a small cube, where neighbours lie at
-/// fixed offsets. Runs in parallel, and takes a few MB while it does.
+/// Goes by groups of blocks: their voxels and those that touch them stand in a small cube (voxel_cube.h), where
+/// neighbours lie at fixed offsets. Runs in parallel, and takes a few MB while it does.
 void link_neighbours(VoxelTile& tile, const VoxelIndex& index);
+
+/// Calls use(rank, ranks of its neighbours in ascending (dx, dy, dz)) for the voxels of blocks [begin, end), ascending.
+/// Without links, which take memory: for those who look at neighbours once.
+void for_each_neighbourhood(
+    const VoxelIndex& index, std::size_t begin, std::size_t end,
+    const std::function<void(std::uint32_t rank, std::span<const std::uint32_t> neighbours)>& use);
 
 }  // namespace arris::tiling

@@ -32,7 +32,7 @@ class Selection {
     visit(begin, split, low, (axis + 1) % 3);
     visit(split, end, high, (axis + 1) % 3);
   }
-  std::vector<RankRange>& ranges() { return ranges_; }
+  std::vector<BlockRange>& ranges() { return ranges_; }
 
  private:
   bool contained(const LatticeBox& cube) const {
@@ -42,24 +42,21 @@ class Selection {
     return true;
   }
   void take(std::size_t begin, std::size_t end) {
-    const std::uint32_t first = index_.block(begin).first_rank;
-    const VoxelIndex::Block last = index_.block(end - 1);
-    const std::uint32_t after = last.first_rank + last.voxels;
-    if (!ranges_.empty() && ranges_.back().end == first) {
-      ranges_.back().end = after;
+    if (!ranges_.empty() && ranges_.back().end == begin) {
+      ranges_.back().end = end;
     } else {
-      ranges_.push_back({first, after});
+      ranges_.push_back({begin, end});
     }
   }
 
   const VoxelIndex& index_;
   LatticeBox wanted_;
-  std::vector<RankRange> ranges_;
+  std::vector<BlockRange> ranges_;
 };
 
 }  // namespace
 
-std::vector<RankRange> select_ranks(const VoxelIndex& index, const LatticeBox& keys) {
+std::vector<BlockRange> select_blocks(const VoxelIndex& index, const LatticeBox& keys) {
   constexpr std::int64_t kEnd = std::int64_t{1} << 28;  // Of the keys of blocks.
   LatticeBox blocks;
   for (int axis = 0; axis < 3; ++axis) {

@@ -9,14 +9,8 @@
 
 namespace arris::tiling {
 
-struct RankRange {
-  std::uint32_t begin;
-  std::uint32_t end;
-  friend bool operator==(const RankRange&, const RankRange&) = default;
-};
-
-/// Ranks of all voxels of the blocks that may hold voxels of the box: ascending ranges with gaps between them. Skips
-/// what is outside by halving cubes: O(ranges log(blocks)).
-std::vector<RankRange> select_ranks(const VoxelIndex& index, const LatticeBox& keys);
+/// The blocks of an index that may hold voxels of a box: ascending ranges with gaps between them. Skips what is outside
+/// by halving cubes: O(ranges log(blocks)).
+std::vector<BlockRange> select_blocks(const VoxelIndex& index, const LatticeBox& keys);
 
 }  // namespace arris::tiling

@@ -9,27 +9,8 @@
 namespace arris::tiling {
 namespace {
 
-constexpr std::size_t kReadChunks = 16;
-
-struct ChunkRange {
-  std::size_t begin;
-  std::size_t end;
-};
-
-/// Chunks that hold the ranks, each once.
-std::vector<ChunkRange> chunks_of(const std::vector<RankRange>& ranks) {
-  std::vector<ChunkRange> chunks;
-  for (const RankRange& range : ranks) {
-    const std::size_t begin = range.begin / VoxelFile::kChunkVoxels;
-    const std::size_t end = (std::size_t{range.end} - 1) / VoxelFile::kChunkVoxels + 1;
-    if (!chunks.empty() && chunks.back().end >= begin) {
-      chunks.back().end = end;
-    } else {
-      chunks.push_back({begin, end});
-    }
-  }
-  return chunks;
-}
+/// Read at a time.
+constexpr std::uint32_t kStretch = 8 * VoxelFile::kChunkVoxels;
 
 }  // namespace
 
@@ -54,30 +35,37 @@ std::uint64_t VoxelStore::bytes_on_disk() const {
   return impl_->file.size_bytes();
 }
 
-void VoxelStore::for_each_stretch(
-    const LatticeBox& keys, const std::function<void(std::span<const Voxel>, std::uint32_t first_rank)>& use) const {
-  std::vector<Voxel> read;
-  for (const ChunkRange& range : chunks_of(select_ranks(impl_->index, keys))) {
-    for (std::size_t chunk = range.begin; chunk < range.end; chunk += kReadChunks) {
-      read.clear();
-      impl_->file.read(chunk, std::min(kReadChunks, range.end - chunk), read);
-      use(read, static_cast<std::uint32_t>(chunk * VoxelFile::kChunkVoxels));
-    }
-  }
+void VoxelStore::read(std::uint32_t begin, std::uint32_t end, std::vector<Voxel>& voxels) const {
+  constexpr auto kChunk = static_cast<std::uint32_t>(VoxelFile::kChunkVoxels);
+  voxels.clear();
+  if (begin == end) return;
+  const std::uint32_t first = begin / kChunk * kChunk;  // Only whole chunks can be verified.
+  const std::uint32_t last = std::min((end - 1) / kChunk * kChunk, size() - 1) + kChunk;
+  voxels.resize(std::min(last, size()) - first);
+  impl_->file.read(first / kChunk, voxels);
+  voxels.resize(end - first);
+  voxels.erase(voxels.begin(), voxels.begin() + (begin - first));
+  auto voxel = voxels.begin();
+  impl_->index.for_each_key(begin, end, [&](const LatticePoint& key) { (voxel++)->key = key; });
 }
 
-std::size_t VoxelStore::most_voxels(const LatticeBox& keys) const {
-  std::size_t most = 0;
-  for (const RankRange& range : select_ranks(impl_->index, keys)) most += range.end - range.begin;
-  return most;
+void VoxelStore::for_each_stretch(
+    const LatticeBox& keys, const std::function<void(std::span<const Voxel>, std::uint32_t first_rank)>& use) const {
+  std::vector<Voxel> voxels;
+  for (const BlockRange& blocks : select_blocks(impl_->index, keys)) {
+    const std::uint32_t end = impl_->index.first_rank(blocks.end);
+    for (std::uint32_t rank = impl_->index.first_rank(blocks.begin); rank < end;) {
+      const std::uint32_t next = rank + std::min(kStretch - rank % kStretch, end - rank);
+      read(rank, next, voxels);
+      use(voxels, rank);
+      rank = next;
+    }
+  }
 }
 
 void VoxelStore::load(const LatticeBox& keys, std::vector<Voxel>& voxels, std::vector<std::uint32_t>& ranks) const {
   voxels.clear();
   ranks.clear();
-  const std::size_t most = most_voxels(keys);
-  voxels.reserve(most);
-  ranks.reserve(most);
   for_each_stretch(keys, [&](std::span<const Voxel> stretch, std::uint32_t rank) {
     for (const Voxel& voxel : stretch) {
       if (keys.contains(voxel.key)) {

@@ -35,8 +35,8 @@ class VoxelStore {
   /// voxels of the box, and others. Reads as load() does, without keeping anything.
   void for_each_stretch(const LatticeBox& keys,
                         const std::function<void(std::span<const Voxel>, std::uint32_t first_rank)>& use) const;
-  /// No more voxels than that lie in the box.
-  std::size_t most_voxels(const LatticeBox& keys) const;
+  /// Replaces `voxels` by those with ranks [begin, end). Verified. Thread-safe. Throws IoError likewise.
+  void read(std::uint32_t begin, std::uint32_t end, std::vector<Voxel>& voxels) const;
   std::uint64_t bytes_on_disk() const;
 
  private:

@@ -12,8 +12,8 @@
 namespace arris::tiling {
 
 struct VoxelStore::Impl {
-  Impl(const VoxelGrid& of, std::filesystem::path path, std::size_t buffer_bytes)
-      : grid(of), file(std::move(path), buffer_bytes) {}
+  Impl(const VoxelGrid& of, std::filesystem::path path, std::size_t buffer_bytes, bool colours)
+      : grid(of), file(std::move(path), buffer_bytes, VoxelLayout(of, colours)) {}
 
   VoxelGrid grid;
   VoxelFile file;

@@ -50,8 +50,6 @@ class VoxelTotal {
   Voxel mean() const {
     Voxel voxel;
     voxel.key = key_;
-    voxel.points =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(points_, std::numeric_limits<std::uint32_t>::max()));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       voxel.centroid[axis] = static_cast<std::uint32_t>(rounded(offset_[axis] * kVoxelFractions));
     }

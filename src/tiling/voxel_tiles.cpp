@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <span>
+#include <vector>
 
+#include "core/parallel.h"
+#include "tiling/voxel_file.h"
 #include "tiling/voxel_neighbours.h"
+#include "tiling/voxel_selection.h"
 
 namespace arris::tiling {
 namespace {
@@ -11,6 +15,79 @@ namespace {
 constexpr int kBlockLevel = 3;  // Of VoxelIndex.
 /// A cell with more than 1/64 of the voxels of a tile makes halos too large, which hold whole cells.
 constexpr std::uint64_t kCellsOfATile = 64;
+/// Read at a time, by each thread.
+constexpr std::uint32_t kPieceVoxels = 4 * VoxelFile::kChunkVoxels;
+constexpr std::size_t kGrainPieces = 8;
+
+/// Whole blocks, which hold the box.
+LatticeBox in_blocks(LatticeBox box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min[axis] = box.min[axis] >> kBlockLevel << kBlockLevel;
+    box.max[axis] = (box.max[axis] + VoxelIndex::kBlockSide - 1) >> kBlockLevel << kBlockLevel;
+  }
+  return box;
+}
+
+/// Voxels that are read together, and their place in the tile.
+struct Piece {
+  std::uint32_t begin_rank;
+  std::uint32_t end_rank;
+  std::size_t at;
+};
+
+/// Cut where chunks of the file end, so that none is read twice.
+std::vector<Piece> pieces_of(const VoxelIndex& index, std::span<const BlockRange> blocks) {
+  std::vector<Piece> pieces;
+  std::size_t at = 0;
+  for (const BlockRange& range : blocks) {
+    const std::uint32_t end = index.first_rank(range.end);
+    for (std::uint32_t rank = index.first_rank(range.begin); rank < end;) {
+      const std::uint32_t next = rank + std::min(kPieceVoxels - rank % kPieceVoxels, end - rank);
+      pieces.push_back({rank, next, at});
+      at += next - rank;
+      rank = next;
+    }
+  }
+  return pieces;
+}
+
+VoxelPosition position_of(const VoxelGrid& grid, const Voxel& voxel) {
+  VoxelPosition at;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int64_t corner = kVoxelFractions * grid.corner(voxel.key[axis]);
+    at[static_cast<std::size_t>(axis)] =
+        static_cast<std::uint32_t>(static_cast<std::uint64_t>(corner)) + voxel.centroid[static_cast<std::size_t>(axis)];
+  }
+  return at;
+}
+
+/// Reads in parallel: with whole blocks the place of every voxel is known before.
+VoxelTile load(const VoxelStore& store, const PlannedTile& planned, std::span<const BlockRange> blocks, bool colours) {
+  VoxelTile tile(store.grid());
+  const std::vector<Piece> pieces = pieces_of(store.index(), blocks);
+  const std::size_t size = pieces.empty() ? 0 : pieces.back().at + (pieces.back().end_rank - pieces.back().begin_rank);
+  tile.keys.resize(size);
+  tile.positions.resize(size);
+  tile.ranks.resize(size);
+  tile.core.resize(size);
+  if (colours) tile.colours.resize(size);
+  parallel_for_chunks(pieces.size(), kGrainPieces, [&](std::size_t begin, std::size_t end) {
+    std::vector<Voxel> voxels;
+    for (const Piece& piece : std::span(pieces).subspan(begin, end - begin)) {
+      store.read(piece.begin_rank, piece.end_rank, voxels);
+      for (std::size_t i = 0; i < voxels.size(); ++i) {
+        const Voxel& voxel = voxels[i];
+        const std::size_t v = piece.at + i;
+        tile.keys[v] = voxel.key;
+        tile.positions[v] = position_of(tile.grid, voxel);
+        tile.ranks[v] = piece.begin_rank + static_cast<std::uint32_t>(i);
+        tile.core[v] = planned.core.contains(voxel.key) ? 1 : 0;
+        if (colours) tile.colours[v] = voxel.colour;
+      }
+    }
+  });
+  return tile;
+}
 
 }  // namespace
 
@@ -40,50 +117,21 @@ TilePlan plan_voxel_tiles(const VoxelIndex& index, const VoxelPlanRequest& reque
   PlanCells cells(voxels, plan.max_points / kCellsOfATile, kBlockLevel);
   TilePlan tiles = plan_tiles(cells, plan);
   while (tiles.largest_covered_points > plan.max_points && cells.refine(add_blocks)) tiles = plan_tiles(cells, plan);
+  for (PlannedTile& tile : tiles.tiles) tile.covered = in_blocks(tile.covered);
   return tiles;
 }
 
 VoxelTile load_voxels(const VoxelStore& store, const PlannedTile& planned, bool colours) {
-  VoxelTile tile(store.grid());
-  const std::size_t most = store.most_voxels(planned.covered);
-  tile.keys.reserve(most);
-  tile.positions.reserve(most);
-  tile.ranks.reserve(most);
-  tile.core.reserve(most);
-  if (colours) tile.colours.reserve(most);
-  const auto position = [&](const Voxel& voxel) {
-    VoxelPosition at;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::int64_t corner = kVoxelFractions * store.grid().corner(voxel.key[axis]);
-      at[static_cast<std::size_t>(axis)] = static_cast<std::uint32_t>(static_cast<std::uint64_t>(corner)) +
-                                           voxel.centroid[static_cast<std::size_t>(axis)];
-    }
-    return at;
-  };
-  store.for_each_stretch(planned.covered, [&](std::span<const Voxel> voxels, std::uint32_t rank) {
-    for (const Voxel& voxel : voxels) {
-      if (planned.covered.contains(voxel.key)) {
-        tile.keys.push_back(voxel.key);
-        tile.positions.push_back(position(voxel));
-        tile.ranks.push_back(rank);
-        tile.core.push_back(planned.core.contains(voxel.key) ? 1 : 0);
-        if (colours) tile.colours.push_back(voxel.colour);
-      }
-      ++rank;
-    }
-  });
-  return tile;
+  return load(store, planned, select_blocks(store.index(), planned.covered), colours);
 }
 
 VoxelTile load_voxel_tile(const VoxelStore& store, const PlannedTile& planned, bool colours) {
-  VoxelTile tile = load_voxels(store, planned, colours);
+  const std::vector<BlockRange> blocks = select_blocks(store.index(), planned.covered);
+  VoxelTile tile = load(store, planned, blocks, colours);
   if (tile.size() == store.size()) {
     link_neighbours(tile, store.index());
   } else {
-    VoxelIndex index;
-    for (const LatticePoint& key : tile.keys) index.append(key);
-    index.finish();
-    link_neighbours(tile, index);
+    link_neighbours(tile, store.index().selection(blocks));
   }
   return tile;
 }

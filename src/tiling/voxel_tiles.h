@@ -17,11 +17,12 @@ struct VoxelPlanRequest {
   std::int32_t halo_voxels = 0;       ///< >= 0.
 };
 
-/// As plan_tiles(), with boxes and counts in voxels. One tile without cuts if all voxels fit.
+/// As plan_tiles(), with boxes and counts in voxels; boxes are of whole blocks of the index. One tile without cuts if
+/// all voxels fit.
 TilePlan plan_voxel_tiles(const VoxelIndex& index, const VoxelPlanRequest& request);
 
-/// The voxels of a tile's covered box, without neighbours. @param colours  keep colours.
-/// Memory: 29 bytes per voxel, 35 with colours. Throws IoError.
+/// The voxels of a tile's covered box, which is of whole blocks, without neighbours. @param colours  keep colours.
+/// Reads in parallel. Memory: 29 bytes per voxel, 35 with colours. Throws IoError.
 VoxelTile load_voxels(const VoxelStore& store, const PlannedTile& tile, bool colours);
 /// The same with their neighbours inside the box. Links in parallel. Memory: 4 bytes more, and 4 per neighbour.
 VoxelTile load_voxel_tile(const VoxelStore& store, const PlannedTile& tile, bool colours);

@@ -100,6 +100,8 @@ TEST(SupervoxelMoments, PointsThatDefineNoPlane_HaveACentroidAndNothingElse) {
   EXPECT_EQ(table.centroid[2], (std::array<double, 3>{50, 0, 0}));
   EXPECT_EQ(table.centroid[3], (std::array<double, 3>{-5, 6, INT32_MAX}));
   EXPECT_EQ(table.centroid[4], (std::array<double, 3>{12, -8, 20}));
+  EXPECT_EQ(moments.points(1), 1U);
+  EXPECT_EQ(moments.points(2), 2U);
   EXPECT_EQ(moments.points(6), 0U);
   EXPECT_FLOAT_EQ(std::abs(table.normal[5][2]), 1.0F);
   EXPECT_GT(table.spacing[5], 0.0F);
@@ -116,6 +118,15 @@ TEST(SupervoxelMoments, GridsOfKnownSpacing_AreWithinAFewPercent) {
     }
     EXPECT_NEAR(moments.table({}).spacing[1], 100.0, 4.0) << grid.rows << " x " << grid.columns;
   }
+}
+
+TEST(SupervoxelMoments, MostBytes_CountsSumsOnlyWhereThereCanBeSeveralPoints) {
+  const auto bytes = [](std::uint64_t points) { return SupervoxelMoments::most_bytes(1000, points, 0); };
+  EXPECT_LT(bytes(1000), 70'000U);
+  EXPECT_EQ(bytes(1010) - bytes(1000), 10U * 80);
+  EXPECT_EQ(bytes(2000) - bytes(1000), 1000U * 80);
+  EXPECT_EQ(bytes(1'000'000), bytes(2000));
+  EXPECT_EQ(SupervoxelMoments::most_bytes(1000, 1000, 500) - bytes(1000), 4000U);
 }
 
 RC_GTEST_PROP(SupervoxelMoments, AnyAdjacency_IsListedFromBothSidesInOrder, ()) {

@@ -107,7 +107,7 @@ RC_GTEST_PROP(VoxelSelection, AnyBox_TakesTheBlocksThatMeetItAndNoOthers, ()) {
   const auto keys = in_z_order(test::any_cloud(1, 2000));
   const VoxelIndex index = index_of(keys);
   const LatticeBox box = any_box(keys);
-  std::vector<RankRange> expected;
+  std::vector<BlockRange> expected;
   for (std::size_t i = 0; i < index.blocks(); ++i) {
     const VoxelIndex::Block block = index.block(i);
     LatticeBox cube;
@@ -121,14 +121,46 @@ RC_GTEST_PROP(VoxelSelection, AnyBox_TakesTheBlocksThatMeetItAndNoOthers, ()) {
       seen.max[axis] = std::min(seen.max[axis], index.bounds().max[axis]);
     }
     if (!cube.intersects(seen)) continue;
-    const std::uint32_t end = block.first_rank + block.voxels;
-    if (!expected.empty() && expected.back().end == block.first_rank) {
-      expected.back().end = end;
+    if (!expected.empty() && expected.back().end == i) {
+      expected.back().end = i + 1;
     } else {
-      expected.push_back({block.first_rank, end});
+      expected.push_back({i, i + 1});
     }
   }
-  RC_ASSERT(select_ranks(index, box) == expected);
+  RC_ASSERT(select_blocks(index, box) == expected);
+}
+
+RC_GTEST_PROP(VoxelIndex, AnyRanks_HaveTheirKeys, ()) {
+  const auto keys = in_z_order(test::any_cloud(1, 2000));
+  const VoxelIndex index = index_of(keys);
+  const auto size = static_cast<std::uint32_t>(keys.size());
+  for (int i = 0; i < 10; ++i) {
+    const auto begin = *rc::gen::inRange<std::uint32_t>(0, size + 1);
+    const auto end = *rc::gen::inRange<std::uint32_t>(begin, size + 1);
+    std::vector<LatticePoint> found;
+    index.for_each_key(begin, end, [&](const LatticePoint& key) { found.push_back(key); });
+    RC_ASSERT(found == std::vector<LatticePoint>(keys.begin() + begin, keys.begin() + end));
+  }
+}
+
+RC_GTEST_PROP(VoxelIndex, AnySelection_IsAnIndexOfItsBlocks, ()) {
+  const auto keys = in_z_order(test::any_cloud(1, 2000));
+  const VoxelIndex index = index_of(keys);
+  const auto ranges = select_blocks(index, any_box(keys));
+  const VoxelIndex selection = index.selection(ranges);
+  std::vector<LatticePoint> chosen;
+  for (const BlockRange& range : ranges) {
+    index.for_each_key(index.first_rank(range.begin), index.first_rank(range.end), [&](const LatticePoint& key) {
+      RC_ASSERT(selection.rank(key) == chosen.size());
+      RC_ASSERT(selection.bounds().contains(key));
+      chosen.push_back(key);
+    });
+  }
+  RC_ASSERT(selection.size() == chosen.size());
+  for (const LatticePoint& key : keys) {
+    const bool in = std::ranges::find(chosen, key) != chosen.end();
+    RC_ASSERT(in == (selection.rank(key) != VoxelIndex::kNone));
+  }
 }
 
 TEST(VoxelIndex, Empty_HasNoVoxel) {
@@ -138,7 +170,7 @@ TEST(VoxelIndex, Empty_HasNoVoxel) {
   EXPECT_TRUE(index.bounds().empty());
   EXPECT_EQ(index.rank({0, 0, 0}), VoxelIndex::kNone);
   EXPECT_EQ(index.blocks(), 0U);
-  EXPECT_TRUE(select_ranks(index, {{-9, -9, -9}, {9, 9, 9}}).empty());
+  EXPECT_TRUE(select_blocks(index, {{-9, -9, -9}, {9, 9, 9}}).empty());
 }
 
 TEST(VoxelIndex, VoxelsAtTheEndsOfTheLattice_AreTold) {
@@ -146,9 +178,9 @@ TEST(VoxelIndex, VoxelsAtTheEndsOfTheLattice_AreTold) {
   const VoxelIndex index = index_of(keys);
   for (std::uint32_t i = 0; i < keys.size(); ++i) EXPECT_EQ(index.rank(keys[i]), i);
   EXPECT_EQ(index.rank({kMax, kMin, kMin}), VoxelIndex::kNone);
-  EXPECT_EQ(select_ranks(index, index.bounds()), (std::vector<RankRange>{{0, 4}}));
+  EXPECT_EQ(select_blocks(index, index.bounds()), (std::vector<BlockRange>{{0, 4}}));
   const std::int64_t far = std::int64_t{1} << 40;
-  EXPECT_EQ(select_ranks(index, {{-far, -far, -far}, {far, far, far}}), (std::vector<RankRange>{{0, 4}}));
+  EXPECT_EQ(select_blocks(index, {{-far, -far, -far}, {far, far, far}}), (std::vector<BlockRange>{{0, 4}}));
 }
 
 TEST(VoxelIndex, FullBlock_HasAllRanks) {

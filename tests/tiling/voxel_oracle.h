@@ -47,7 +47,6 @@ inline std::vector<Voxel> voxels_of(std::int32_t side, std::span<const LatticePo
   for (const auto& [key, sum] : sums) {
     Voxel voxel;
     voxel.key = key;
-    voxel.points = static_cast<std::uint32_t>(sum.points);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const __int128 n = sum.points;
       voxel.centroid[axis] = static_cast<std::uint32_t>((2 * kVoxelFractions * sum.offset[axis] + n) / (2 * n));

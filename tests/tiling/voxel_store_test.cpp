@@ -16,6 +16,7 @@
 #include "support/temp_folder.h"
 #include "tiling/random_cloud.h"
 #include "tiling/voxel_accumulator.h"
+#include "tiling/voxel_file.h"
 #include "tiling/voxel_oracle.h"
 
 namespace arris::tiling {
@@ -108,7 +109,7 @@ TEST(VoxelStore, FlippedBitOrMissingEnd_IsAnIoErrorThatNamesTheFile) {
     test::flip_bit(folder / "voxels.store", byte, i % 8);
     EXPECT_NE(message_of(store, store.index().bounds()).find("voxels.store"), std::string::npos) << byte;
     LatticeBox box;
-    box.include(all[byte / sizeof(Voxel)].key);
+    box.include(all[byte / VoxelLayout(VoxelGrid(kSide), false).bytes()].key);
     EXPECT_NE(message_of(store, box).find("voxels.store"), std::string::npos) << byte;
     test::flip_bit(folder / "voxels.store", byte, i % 8);
     EXPECT_EQ(load(store, store.index().bounds()), chosen(all, store.index().bounds()));

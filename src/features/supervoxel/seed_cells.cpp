@@ -153,6 +153,8 @@ std::vector<Seed> find_seeds(const VoxelTile& tile, const SupervoxelScale& scale
   std::vector<CellSeeds::value_type*> all;
   all.reserve(cells.size());
   for (auto& cell : cells) all.push_back(&cell);
+  std::ranges::sort(all, {},
+                    [](const auto* cell) { return cell->second.voxel; });  // What is near is looked at together.
   parallel_for_chunks(all.size(), kCellGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) all[i]->second.supported = supported(tile, all[i]->second.voxel, scale);
   });
