@@ -34,7 +34,7 @@ SupportProof::Depth SupportProof::depth_around(std::uint32_t slot, double radius
 class SupportProof::BadSlots {
  public:
   BadSlots(const SupportProof& proof, const LatticeBox& covered)
-      : proof_(proof), covered_(covered), bad_(proof.tree_.size()), blocks_((bad_.size() + kGrain - 1) / kGrain) {
+      : proof_(proof), covered_(covered), bad_(proof.tree_.size(), 0), blocks_((bad_.size() + kGrain - 1) / kGrain) {
     for_each_block([&](std::size_t block, std::uint32_t slot) {
       const TileNeighbourhoods& points = proof_.points_;
       if (points.state(slot) == ShapeState::kUnasked) return;
@@ -51,7 +51,7 @@ class SupportProof::BadSlots {
   /// distance: where that is deeper than any that is bad, there is nothing to look for.
   void widen() {
     const double deepest_before = deepest();
-    const std::vector<std::uint8_t> before = bad_;
+    const PageVector<std::uint8_t> before = bad_;
     for_each_block(
         [&](std::size_t block, std::uint32_t slot) {
           if (before[slot] != 0) return;
@@ -93,11 +93,11 @@ class SupportProof::BadSlots {
 
   const SupportProof& proof_;
   const LatticeBox& covered_;
-  std::vector<std::uint8_t> bad_;
+  PageVector<std::uint8_t> bad_;
   std::vector<Block> blocks_;
 };
 
-std::vector<std::uint32_t> SupportProof::unproven(const std::vector<std::uint8_t>& is_query,
+std::vector<std::uint32_t> SupportProof::unproven(std::span<const std::uint8_t> is_query,
                                                   const LatticeBox& covered) const {
   BadSlots bad(*this, covered);
   std::vector<std::uint32_t> slots;

@@ -81,11 +81,11 @@ TileNeighbourhoods::TileNeighbourhoods(const PointTree& tree, const Lattice& lat
       reach_steps_(parameters.reach() / lattice.step),
       weights_{parameters.inlier_distance / lattice.step, parameters.published},
       rows_(tree.size(), rule_.most()),
-      wanted_(tree.size()),
+      wanted_(tree.size(), 0),
       shapes_(tree.size()),
       states_(tree.size(), ShapeState::kUnasked) {}
 
-void TileNeighbourhoods::compute(const std::vector<std::uint8_t>& wanted) {
+void TileNeighbourhoods::compute(std::span<const std::uint8_t> wanted) {
   parallel_for_chunks(tree_.buckets(), kChunkBuckets, [&](std::size_t first, std::size_t last) {
     Runner runner(*this);
     std::vector<std::uint32_t> slots;
