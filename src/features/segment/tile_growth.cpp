@@ -180,6 +180,13 @@ class Grower {
     });
   }
 
+  /// Whether all are seen to be linked with the points of `root` at first sight: what most points end with.
+  bool all_below(std::uint32_t root, const NeighbourList& neighbours) const {
+    for (const std::uint32_t neighbour : neighbours)
+      if (sets_.parent(neighbour) != root) return false;
+    return true;
+  }
+
   void find_links() {
     sets_ = DisjointSets(tree_.size());
     numbered_.assign(tree_.size(), 0);
@@ -190,10 +197,16 @@ class Grower {
         return;
       }
       std::uint32_t root = sets_.find(slot);
+      const NeighbourList neighbours = points_.neighbours(slot);
+      if (all_below(root, neighbours)) {
+        among_own_[slot] = 1;
+        return;
+      }
       bool all_linked = true;
-      for (const std::uint32_t neighbour : points_.neighbours(slot)) {
+      for (const std::uint32_t neighbour : neighbours) {
+        if (sets_.parent(neighbour) == root) continue;  // Most are linked already.
         const bool both = grows_[slot] && grows_[neighbour];
-        if (both && sets_.find(neighbour) == root) continue;  // Most are linked already.
+        if (both && sets_.find(neighbour) == root) continue;
         if (points_.state(neighbour) != ShapeState::kShaped || !(grows_[slot] || grows_[neighbour]) ||
             !likeness_.alike(slot, neighbour)) {
           all_linked = false;

@@ -50,6 +50,8 @@ class TileNeighbourhoods {
   /// Distance in steps within which the neighbours must lie, from those found; max_reach_steps() if they are too few.
   double reach_of(std::uint32_t slot) const;
   double max_reach_steps() const { return reach_steps_; }
+  /// No reach_of() of those of slots [first, last) that were asked for is more; none: there are none.
+  std::optional<double> most_reach(std::size_t first, std::size_t last) const;
   /// The radius of a ball around the point that holds as many others as any point may want; none: they are not in
   /// sight.
   std::optional<double> ball_of_most(std::uint32_t slot) const;
