@@ -22,6 +22,8 @@ class DisjointSets {
     parent_.resize(old + count);
     std::iota(parent_.begin() + static_cast<std::ptrdiff_t>(old), parent_.end(), static_cast<std::uint32_t>(old));
   }
+  /// An element of the same set. If it is the representative nothing needs to be looked for.
+  std::uint32_t parent(std::uint32_t element) const { return parent_[element]; }
   std::uint32_t find(std::uint32_t element) {
     while (parent_[element] != element) {
       parent_[element] = parent_[parent_[element]];

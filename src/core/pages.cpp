@@ -88,14 +88,29 @@ class SparePages {
     const std::lock_guard lock(mutex_);
     drop_all();
   }
+  /// From the ends of stretches, whole large pages where there are any.
+  void trim(std::size_t most_bytes) noexcept {
+    const std::lock_guard lock(mutex_);
+    for (std::size_t size = sum(); size > most_bytes;) {
+      Stretch& last = spare_.back();
+      const std::size_t gone = std::min(whole(size - most_bytes, kLargePage), last.size_bytes);
+      last.size_bytes -= gone;
+      size -= gone;
+      unmap({last.end(), gone});
+      if (last.size_bytes == 0) spare_.pop_back();
+    }
+  }
   std::size_t size_bytes() const noexcept {
     const std::lock_guard lock(mutex_);
+    return sum();
+  }
+
+ private:
+  std::size_t sum() const noexcept {
     std::size_t sum = 0;
     for (const Stretch& stretch : spare_) sum += stretch.size_bytes;
     return sum;
   }
-
- private:
   /// From the smallest stretch that is long enough, its beginning on a multiple of `unit`; 0 if there is none.
   std::uintptr_t take_stretch(std::size_t size, std::size_t unit) {
     auto best = spare_.end();
@@ -189,6 +204,10 @@ void return_pages(void* pages, std::size_t size_bytes) noexcept {
 
 void drop_spare_pages() noexcept {
   spare_pages().drop();
+}
+
+void trim_spare_pages(std::size_t most_bytes) noexcept {
+  spare_pages().trim(most_bytes);
 }
 
 std::size_t spare_pages_bytes() noexcept {

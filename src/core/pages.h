@@ -21,6 +21,8 @@ void* take_pages(std::size_t size_bytes);
 void return_pages(void* pages, std::size_t size_bytes) noexcept;
 /// Gives back to the system what was returned; release_free_memory() does so.
 void drop_spare_pages() noexcept;
+/// Gives back what is more than that.
+void trim_spare_pages(std::size_t most_bytes) noexcept;
 /// What was returned and not taken again.
 std::size_t spare_pages_bytes() noexcept;
 

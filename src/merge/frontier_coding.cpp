@@ -110,6 +110,11 @@ void FrontierBlock::add(const FrontierPoint& point) {
   words_.insert(words_.end(), point.neighbours.begin(), point.neighbours.end());
 }
 
+void FrontierBlock::shrink_to_fit() {
+  words_.shrink_to_fit();
+  begins_.shrink_to_fit();
+}
+
 void encode_frontier(std::span<const std::uint32_t> words, std::size_t stride, std::vector<std::byte>& out) {
   Encoder encoder(out);
   std::array<std::uint32_t, 3> before{};

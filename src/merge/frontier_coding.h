@@ -31,6 +31,9 @@ class FrontierBlock {
 
   void clear();
   void add(const FrontierPoint& point);
+  void shrink_to_fit();
+  /// In memory, if it was shrunk to fit.
+  std::uint64_t size_bytes() const { return sizeof(std::uint32_t) * (words_.size() + begins_.size()); }
 
  private:
   static constexpr std::size_t kHeadWords = 5;  ///< id, x, y, z, number of neighbours.

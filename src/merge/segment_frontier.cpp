@@ -29,20 +29,30 @@ void SegmentFrontier::append(std::span<const std::uint32_t> words) {
   parts_.push_back(std::move(part));
 }
 
-void SegmentFrontier::keep_border(const PointLabels& labels) {
+void SegmentFrontier::keep_border(const PointLabels& labels, std::uint64_t most_bytes) {
   std::size_t next_part = 0;
-  for_each_block([&](const FrontierBlock& block) {
+  std::uint64_t kept_bytes = 0;
+  for_each_block_on_disk([&](const FrontierBlock& block) {
     Part& part = parts_[next_part++];
     part.dropped.resize(block.size());
+    FrontierBlock border;
     for (std::size_t i = 0; i < block.size(); ++i) {
       const FrontierPoint p = block.point(i);
       const std::uint32_t own = labels[p.id];
       const auto same = [&](std::uint32_t neighbour) { return labels[neighbour] == own; };
       part.dropped[i] = own != 0 && std::all_of(p.neighbours.begin(), p.neighbours.end(), same);
+      if (!part.dropped[i] && kept_bytes < most_bytes) border.add(p);
     }
     const auto dropped = static_cast<std::uint64_t>(std::count(part.dropped.begin(), part.dropped.end(), true));
     if (dropped == 0) part.dropped = {};
     records_ -= dropped;
+    border.shrink_to_fit();
+    kept_bytes += border.size_bytes();
+    if (kept_bytes < most_bytes) {
+      kept_.push_back(std::move(border));
+    } else {
+      kept_ = {};
+    }
   });
 }
 
@@ -53,6 +63,11 @@ void SegmentFrontier::read(const Part& part, FrontierBlock& block) const {
 }
 
 void SegmentFrontier::for_each_block(const std::function<void(const FrontierBlock&)>& use) const {
+  if (kept_.empty()) return for_each_block_on_disk(use);
+  for (const FrontierBlock& block : kept_) use(block);
+}
+
+void SegmentFrontier::for_each_block_on_disk(const std::function<void(const FrontierBlock&)>& use) const {
   std::vector<FrontierBlock> blocks(std::min(kPartsAtATime, parts_.size()));
   for (std::size_t first = 0; first < parts_.size(); first += blocks.size()) {
     const std::size_t count = std::min(blocks.size(), parts_.size() - first);

@@ -15,8 +15,8 @@
 
 namespace arris::merge {
 
-/// Appended in any order, then cut down to the border, then read as often as wanted. Disk: frontier_coding.h. Memory: a
-/// bit per record, and a few blocks while reading.
+/// Appended in any order, then cut down to the border, then read as often as wanted. Disk: frontier_coding.h. Memory:
+/// all of the border if there is room, else a bit per record, and a few blocks while reading.
 class SegmentFrontier {
  public:
   /// @param most_neighbours  k of the records.
@@ -27,7 +27,8 @@ class SegmentFrontier {
 
   /// Drops the points all of whose neighbours are in the point's own segment. Which of those the tiles appended depends
   /// on how the scan was cut; what is left does not. They stay on disk, being few. Call once, after the last append().
-  void keep_border(const PointLabels& labels);
+  /// @param most_bytes  memory that what is left may take: if it does not fit, it is read from disk every time.
+  void keep_border(const PointLabels& labels, std::uint64_t most_bytes = 0);
 
   /// Calls use(block) for blocks that have all the points in turn. Blocks are read several at a time, in parallel.
   void for_each_block(const std::function<void(const FrontierBlock& block)>& use) const;
@@ -43,11 +44,13 @@ class SegmentFrontier {
     std::vector<bool> dropped;  ///< Empty: none.
   };
   void read(const Part& part, FrontierBlock& block) const;
+  void for_each_block_on_disk(const std::function<void(const FrontierBlock& block)>& use) const;
 
   std::size_t stride_;
   std::mutex mutex_;
   tiling::ScratchFile file_;
   std::vector<Part> parts_;
+  std::vector<FrontierBlock> kept_;  ///< All of the border, or nothing.
   std::uint64_t records_ = 0;
 };
 

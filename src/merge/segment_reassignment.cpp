@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <vector>
 
 #include "core/parallel.h"
@@ -43,15 +44,18 @@ class Judge {
     const std::uint32_t own = labels_[point.id];
     if (own != 0 && (published_ || planes_[own - 1].rms > kMostPlanarRms * planes_[own - 1].spacing)) return own;
     std::uint32_t best = own;
+    std::uint32_t passed_over = 0;  // For `best`; the next neighbour is often of the same segment.
     double at_best = own != 0 ? signed_distance(planes_[own - 1], point.position) : 0.0;
     for (const std::uint32_t neighbour : point.neighbours) {
       const std::uint32_t segment = labels_[neighbour];
-      if (segment == 0 || segment == best) continue;
+      if (segment == 0 || segment == best || segment == passed_over) continue;
       const double d = signed_distance(planes_[segment - 1], point.position);
-      if (std::fabs(d) > limit_[segment - 1]) continue;
-      if (best == 0 || is_nearer(segment, d, best, at_best)) {
+      if (!(std::fabs(d) > limit_[segment - 1]) && (best == 0 || is_nearer(segment, d, best, at_best))) {
         best = segment;
         at_best = d;
+        passed_over = 0;
+      } else {
+        passed_over = segment;
       }
     }
     return best == own && own != 0 && is_stray(planes_[own - 1], at_best, limit_[own - 1]) ? 0 : best;
@@ -87,18 +91,36 @@ class Judge {
   double least_alignment_;
 };
 
+void learn_sides_of(const FrontierPoint& point, const PointLabels& labels, SegmentSides& sides) {
+  const std::uint32_t own = labels[point.id];
+  if (own == 0) return;
+  std::uint32_t other = 0;
+  std::int64_t run = 0;  // Neighbours in `other`, one after the other.
+  const auto end_run = [&] {
+    if (run > 0) sides.add(own, other, point.position, run);
+    run = 0;
+  };
+  for (const std::uint32_t neighbour : point.neighbours) {
+    const std::uint32_t segment = labels[neighbour];
+    if (segment == 0 || segment == own) continue;
+    if (segment != other) end_run();
+    other = segment;
+    ++run;
+  }
+  end_run();
+}
+
 /// Looks at the points of every segment that have neighbours in another.
-void learn_sides(const SegmentFrontier& frontier, const PointLabels& labels, SegmentSides& sides) {
+void learn_sides(const SegmentFrontier& frontier, const PointLabels& labels, const std::vector<SegmentPlane>& planes,
+                 SegmentSides& sides) {
+  std::mutex mutex;  // Guards `sides`.
   frontier.for_each_block([&](const FrontierBlock& points) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const FrontierPoint point = points.point(i);
-      const std::uint32_t own = labels[point.id];
-      if (own == 0) continue;
-      for (std::size_t n = 0; n < point.neighbours.size(); ++n) {
-        const std::uint32_t other = labels[point.neighbours[n]];
-        if (other != 0 && other != own) sides.add(own, other, point.position);
-      }
-    }
+    parallel_for_chunks(points.size(), kGrain, [&](std::size_t first, std::size_t last) {
+      SegmentSides found(planes);
+      for (std::size_t i = first; i < last; ++i) learn_sides_of(points.point(i), labels, found);
+      const std::lock_guard lock(mutex);
+      sides.add(found);
+    });
   });
 }
 
@@ -144,7 +166,7 @@ std::uint64_t reassign(const ReassignmentSetup& setup, const SegmentFrontier& fr
                        std::vector<SegmentPlane>& planes, const CancelToken& cancel) {
   tiling::ScratchFile changes(setup.folder / "segment_changes");
   SegmentSides sides(planes);
-  if (!setup.parameters.published) learn_sides(frontier, labels, sides);
+  if (!setup.parameters.published) learn_sides(frontier, labels, planes, sides);
   find_changes(Judge(setup, labels, planes, sides), frontier, labels, changes, cancel);
   const std::uint64_t count = changes.size_bytes() / sizeof(Change);
   Updater updater(labels, moments);

@@ -14,13 +14,20 @@ constexpr double kMostSpacings = 4.0;
 
 }  // namespace
 
-void SegmentSides::add(std::uint32_t segment, std::uint32_t other, const LatticePoint& p) {
+void SegmentSides::add(std::uint32_t segment, std::uint32_t other, const LatticePoint& p, std::int64_t neighbours) {
   const SegmentPlane& plane = planes_[other - 1];
   const double most = kMostSpacings * plane.spacing;
   const auto steps = static_cast<std::int64_t>(std::llround(std::clamp(signed_distance(plane, p), -most, most)));
   Sum& sum = sums_[key(segment, other)];
-  sum.signed_steps += steps;
-  sum.steps += std::abs(steps);
+  sum.signed_steps += neighbours * steps;
+  sum.steps += neighbours * std::abs(steps);
+}
+
+void SegmentSides::add(const SegmentSides& more) {
+  for (const auto& [pair, sum] : more.sums_) {
+    sums_[pair].signed_steps += sum.signed_steps;
+    sums_[pair].steps += sum.steps;
+  }
 }
 
 int SegmentSides::side(std::uint32_t segment, std::uint32_t other) const {

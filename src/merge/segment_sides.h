@@ -15,8 +15,10 @@ class SegmentSides {
  public:
   explicit SegmentSides(const std::vector<SegmentPlane>& planes) : planes_(planes) {}
 
-  /// A point of `segment` that has a neighbour in `other`.
-  void add(std::uint32_t segment, std::uint32_t other, const LatticePoint& p);
+  /// A point of `segment` that has so many neighbours in `other`.
+  void add(std::uint32_t segment, std::uint32_t other, const LatticePoint& p, std::int64_t neighbours = 1);
+  /// What was added there, too.
+  void add(const SegmentSides& more);
 
   /// +1 or -1: the points of `segment` near `other` lie on that side of its plane; 0: on neither, or not known.
   int side(std::uint32_t segment, std::uint32_t other) const;

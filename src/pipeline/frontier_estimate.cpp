@@ -31,7 +31,8 @@ struct CellFrontier {
 CellFrontier frontier_of(const CellSample::View& cell, std::span<const std::uint8_t> intensities,
                          const Lattice& lattice, const SegmentParameters& parameters) {
   TilePoints points;
-  tiling::fold_duplicates(std::vector(cell.points->positions), std::vector(cell.points->ids), points);
+  const auto& [positions, ids] = *cell.points;
+  tiling::fold_duplicates({positions.begin(), positions.end()}, {ids.begin(), ids.end()}, points);
   points.core = points.covered = cell.box;
   std::vector<std::uint8_t> of_entry(intensities.empty() ? 0 : points.ids.size());
   for (std::size_t i = 0; i < of_entry.size(); ++i) of_entry[i] = intensities[points.ids[i]];

@@ -44,7 +44,7 @@ GrowthResult grow_segments(io::InputSet& inputs, const GrowthSetup& setup, merge
   // What has the position of another point has its segment.
   duplicates.for_each(
       [&](const merge::DuplicatePoint& point) { result.segments.labels[point.id] = result.segments.labels[point.of]; });
-  frontier.keep_border(result.segments.labels);
+  frontier.keep_border(result.segments.labels, job.memory.tiles_bytes);
   setup.watch.lap("join");
   return result;
 }

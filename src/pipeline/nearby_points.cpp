@@ -41,8 +41,8 @@ std::optional<TilePoints> NearbyPoints::in(const tiling::QueryRegions& regions, 
     }
   });
   if (count > most_points) return std::nullopt;
-  std::vector<LatticePoint> positions;
-  std::vector<std::uint64_t> ids;
+  LatticePoints positions;
+  PointIds ids;
   positions.reserve(count);
   ids.reserve(count);
   for (tiling::SortedPoints& some : found) {

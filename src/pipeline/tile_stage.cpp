@@ -8,11 +8,13 @@
 #include <mutex>
 
 #include "core/file_descriptor.h"
+#include "core/pages.h"
 #include "core/parallel.h"
 #include "core/process_memory.h"
 #include "pipeline/run_support.h"
 #include "pipeline/tile_retirement.h"
 #include "tiling/partition.h"
+#include "tiling/tile_store.h"
 
 namespace arris::pipeline {
 namespace {
@@ -99,6 +101,9 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const T
   std::atomic<std::uint64_t> isolated{0};
   TileProgress tile_progress(progress);
   DiskKeeper disk(job, folder, store);
+  // While it is built a tile takes less than it has reserved: the next analysis may have the pages of the one before.
+  const std::uint64_t largest = job.tiles.largest_covered_points;
+  const std::uint64_t spare_bytes = job.memory.tile_bytes(largest) - tiling::build_bytes(largest);
 
   const auto analyse = [&](std::size_t tile) {
     cancel.check();
@@ -116,7 +121,8 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const T
     }
     disk.analysed(tile, outcome.unproven);
     isolated += outcome.isolated;
-    release_free_memory();
+    trim_spare_pages(spare_bytes);
+    trim_heap();
     tile_progress.done(planned.core_points);
   };
 
@@ -130,6 +136,7 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const T
   disk.routed();
   tile_progress.start(job.survey.points());
   workers.wait();
+  release_free_memory();
   stage.isolated = isolated;
   stage.peak_temp_bytes = disk.peak_bytes();
   return stage;

@@ -105,8 +105,8 @@ void Widener::answer_alone(const UnprovenQuery& query) {
 std::uint64_t Widener::count_around(const UnprovenQuery& query) const {
   const tiling::QueryRegions regions = regions_of(std::span(&query, 1));
   std::uint64_t count = 0;
-  std::vector<LatticePoint> no_positions;
-  std::vector<std::uint64_t> no_ids;
+  LatticePoints no_positions;
+  PointIds no_ids;
   for (std::size_t tile = 0; tile < job_.tiles.tiles.size(); ++tile) {
     if (!regions.touches(job_.tiles.tiles[tile].core)) continue;
     const auto counted = [&](const LatticePoint& p) {

@@ -37,7 +37,7 @@ void sort_runs(std::vector<std::uint32_t>& items, Less&& less) {
 
 }  // namespace
 
-void fold_sorted(std::vector<LatticePoint>&& positions, std::vector<std::uint64_t>&& ids, TilePoints& tile) {
+void fold_sorted(LatticePoints&& positions, PointIds&& ids, TilePoints& tile) {
   tile.duplicates.clear();
   std::size_t unique = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -55,21 +55,21 @@ void fold_sorted(std::vector<LatticePoint>&& positions, std::vector<std::uint64_
   tile.ids = std::move(ids);
 }
 
-void fold_duplicates(std::vector<LatticePoint>&& positions, std::vector<std::uint64_t>&& ids, TilePoints& tile) {
+void fold_duplicates(LatticePoints&& positions, PointIds&& ids, TilePoints& tile) {
   std::vector<std::uint32_t> order(positions.size());
   std::iota(order.begin(), order.end(), 0U);
   sort_runs(order, [&](std::uint32_t a, std::uint32_t b) {
     if (positions[a] != positions[b]) return z_order_less(positions[a], positions[b]);
     return ids[a] < ids[b];
   });
-  std::vector<LatticePoint> sorted_positions(positions.size());
-  std::vector<std::uint64_t> sorted_ids(ids.size());
+  LatticePoints sorted_positions(positions.size());
+  PointIds sorted_ids(ids.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     sorted_positions[i] = positions[order[i]];
     sorted_ids[i] = ids[order[i]];
   }
-  std::vector<LatticePoint>().swap(positions);
-  std::vector<std::uint64_t>().swap(ids);
+  LatticePoints().swap(positions);
+  PointIds().swap(ids);
   fold_sorted(std::move(sorted_positions), std::move(sorted_ids), tile);
 }
 

@@ -10,6 +10,6 @@
 namespace arris::tiling {
 
 /// Equal positions must be adjacent, with ascending ids. Fills positions, ids and duplicates of `tile`; O(n), no copy.
-void fold_sorted(std::vector<LatticePoint>&& positions, std::vector<std::uint64_t>&& ids, TilePoints& tile);
+void fold_sorted(LatticePoints&& positions, PointIds&& ids, TilePoints& tile);
 
 }  // namespace arris::tiling

@@ -12,13 +12,14 @@
 #include <vector>
 
 #include "core/lattice.h"
+#include "core/tile_points.h"
 
 namespace arris::tiling {
 
 /// Points as they come back from a grid: in Z-order of positions (morton.h), equal positions by ascending id.
 struct SortedPoints {
-  std::vector<LatticePoint> positions;
-  std::vector<std::uint64_t> ids;
+  LatticePoints positions;
+  PointIds ids;
 };
 
 /// A grid "points" with the attributes "P" and "id" (int64), whose world space is lattice steps. It is written when

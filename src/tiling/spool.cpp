@@ -139,8 +139,7 @@ void SpoolWriter::fail(std::size_t tile, const char* what, int reason) const {
   throw_io_error(spool_path(folder_, tile), what, reason, rest);
 }
 
-void read_spool(const std::filesystem::path& path, std::vector<LatticePoint>& positions,
-                std::vector<std::uint64_t>& ids) {
+void read_spool(const std::filesystem::path& path, LatticePoints& positions, PointIds& ids) {
   FileReader file(path);
   const auto require = [&](bool sound) {
     if (sound) return;

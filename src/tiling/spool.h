@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/lattice.h"
+#include "core/tile_points.h"
 #include "tiling/packed_points.h"
 
 namespace arris::tiling {
@@ -73,7 +74,6 @@ class SpoolWriter {
 };
 
 /// Reads a spool file back. Throws IoError if it cannot be read or is not what was written.
-void read_spool(const std::filesystem::path& path, std::vector<LatticePoint>& positions,
-                std::vector<std::uint64_t>& ids);
+void read_spool(const std::filesystem::path& path, LatticePoints& positions, PointIds& ids);
 
 }  // namespace arris::tiling

@@ -86,13 +86,13 @@ TileStore::~TileStore() = default;
 
 TilePoints TileStore::build(std::size_t tile) {
   const std::filesystem::path spool = spool_path(impl_->folder, tile);
-  std::vector<LatticePoint> positions;
-  std::vector<std::uint64_t> ids;
+  LatticePoints positions;
+  PointIds ids;
   read_spool(spool, positions, ids);
   const std::uint64_t points = positions.size();
   PointGrid grid(positions, ids, impl_->metadata(tile));
-  std::vector<LatticePoint>().swap(positions);
-  std::vector<std::uint64_t>().swap(ids);
+  LatticePoints().swap(positions);
+  PointIds().swap(ids);
 
   HashingSink sink(impl_->tile_path(tile), points * kDiskBytesPerPoint);
   std::ostream stream(&sink);
@@ -164,7 +164,7 @@ TilePoints TileStore::load(std::size_t tile) const {
 }
 
 void TileStore::load_core(std::size_t tile, const std::function<bool(const LatticePoint&)>& keep,
-                          std::vector<LatticePoint>& positions, std::vector<std::uint64_t>& ids,
+                          LatticePoints& positions, PointIds& ids,
                           const std::function<bool(const LatticeBox&)>& near) const {
   const SortedPoints points = impl_->read(tile, near);
   const LatticeBox core = impl_->tiles.at(tile).core;

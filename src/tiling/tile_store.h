@@ -32,9 +32,8 @@ class TileStore {
   TilePoints load(std::size_t tile) const;
   /// Points owned by `tile` (inside its core, duplicates included) for which keep(position) holds: appended to the
   /// outputs, in Z-order. @param near  a box for which this is false holds no such point: that saves looking.
-  void load_core(std::size_t tile, const std::function<bool(const LatticePoint&)>& keep,
-                 std::vector<LatticePoint>& positions, std::vector<std::uint64_t>& ids,
-                 const std::function<bool(const LatticeBox&)>& near = {}) const;
+  void load_core(std::size_t tile, const std::function<bool(const LatticePoint&)>& keep, LatticePoints& positions,
+                 PointIds& ids, const std::function<bool(const LatticeBox&)>& near = {}) const;
   std::uint64_t points(std::size_t tile) const;  ///< Stored points (core and halo) of a built tile; 0 otherwise.
   std::uint64_t bytes_on_disk() const;           ///< Of all built tiles that were not removed.
   /// Deletes the tile's file, if it was built.
@@ -51,6 +50,6 @@ std::uint64_t build_bytes(std::uint64_t points);
 std::uint64_t load_bytes(std::uint64_t points);
 
 /// Sorts (position, id) pairs, folds exact duplicates: fills positions (in Z-order), ids and duplicates of `tile`.
-void fold_duplicates(std::vector<LatticePoint>&& positions, std::vector<std::uint64_t>&& ids, TilePoints& tile);
+void fold_duplicates(LatticePoints&& positions, PointIds&& ids, TilePoints& tile);
 
 }  // namespace arris::tiling

@@ -51,6 +51,25 @@ TEST(Pages, WhatWasNeverWritten_IsNotKept) {
   drop_spare_pages();
 }
 
+TEST(Pages, TrimmingLeavesWhatIsAllowed) {
+  drop_spare_pages();
+  void* const first = take_written(10 * kMiB);
+  void* const second = take_written(6 * kMiB);
+  return_pages(first, 10 * kMiB);
+  return_pages(second, 6 * kMiB);
+  const std::uint64_t before = resident_bytes();
+  trim_spare_pages(16 * kMiB);
+  EXPECT_EQ(spare_pages_bytes(), 16 * kMiB);
+  trim_spare_pages(5 * kMiB);
+  EXPECT_LE(spare_pages_bytes(), 5 * kMiB);
+  EXPECT_GT(spare_pages_bytes(), 2 * kMiB);
+  if (!test::kThreadSanitizer) {
+    EXPECT_LT(resident_bytes(), before - 10 * kMiB);
+  }
+  trim_spare_pages(0);
+  EXPECT_EQ(spare_pages_bytes(), 0U);
+}
+
 TEST(Pages, StretchesTooShort_AreGathered) {
   drop_spare_pages();
   std::array<void*, 6> blocks;

@@ -24,7 +24,7 @@ RC_GTEST_PROP(SmoothedIntensities, AreUpperMedians, ()) {
   TileNeighbourhoods points(tree, {0.001, {0.0, 0.0, 0.0}}, parameters);
   points.compute(std::vector<std::uint8_t>(tree.size(), 1));
   const auto values = *rc::gen::container<std::vector<std::uint8_t>>(tree.size(), rc::gen::arbitrary<std::uint8_t>());
-  const std::vector<std::uint8_t> smooth = smoothed_intensities(points, values);
+  const PageVector<std::uint8_t> smooth = smoothed_intensities(points, values);
   for (std::uint32_t slot = 0; slot < tree.size(); ++slot) {
     std::vector<std::uint8_t> around{values[slot]};
     for (const std::uint32_t neighbour : points.neighbours(slot)) around.push_back(values[neighbour]);

@@ -98,7 +98,7 @@ RC_GTEST_PROP(LiuMethod, WiderArithmetic_ChangesNothing, ()) {
 
 RC_GTEST_PROP(LiuMethod, Translation_ChangesNothing, ()) {
   const Cloud cloud = any_cloud(400);
-  const std::vector<LatticePoint> moved = anywhere(cloud.positions);
+  const LatticePoints moved = anywhere(cloud.positions);
   expect_equal(run(tile_of(cloud.positions, cloud.seed), cloud.parameters),
                run(tile_of(moved, cloud.seed), cloud.parameters));
 }

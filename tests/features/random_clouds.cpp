@@ -73,7 +73,7 @@ std::vector<LatticePoint> random_positions(Shape shape, std::size_t points, doub
   return positions;
 }
 
-TilePoints tile_of(const std::vector<LatticePoint>& positions, std::uint64_t seed) {
+TilePoints tile_of(std::span<const LatticePoint> positions, std::uint64_t seed) {
   std::vector<std::uint64_t> ids(positions.size());
   std::iota(ids.begin(), ids.end(), std::uint64_t{1000});
   std::shuffle(ids.begin(), ids.end(), std::mt19937_64(seed));
@@ -91,6 +91,10 @@ TilePoints tile_of(const std::vector<LatticePoint>& positions, std::uint64_t see
   tile.core = everything();
   tile.covered = everything();
   return tile;
+}
+
+TilePoints tile_of(const std::vector<LatticePoint>& positions, std::uint64_t seed) {
+  return tile_of(std::span(positions), seed);
 }
 
 LatticeBox everything() {

@@ -2,6 +2,7 @@
 /// @file Random small clouds of the shapes that scans, grids and accidents produce.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ std::string name(Shape shape);
 std::vector<LatticePoint> random_positions(Shape shape, std::size_t points, double extent, std::uint64_t seed);
 
 /// Folds duplicates; ids are shuffled numbers. The tile owns and covers everything.
+TilePoints tile_of(std::span<const LatticePoint> positions, std::uint64_t seed);
 TilePoints tile_of(const std::vector<LatticePoint>& positions, std::uint64_t seed);
 
 /// All of the lattice and beyond, so that points at its very ends are as well covered as others.

@@ -42,7 +42,7 @@ struct Scan {
   TilePoints tile() const {
     TilePoints tile;
     tile.core = tile.covered = test::everything();
-    tile.positions = positions;
+    tile.positions.assign(positions.begin(), positions.end());
     for (std::size_t i = 0; i < positions.size(); ++i) tile.ids.push_back(i);
     return tile;
   }

@@ -5,8 +5,8 @@
 
 namespace arris::test {
 
-std::vector<SegmentPlane> planes_of(const std::vector<LatticePoint>& positions,
-                                    const std::vector<std::uint32_t>& labels, double spacing) {
+std::vector<SegmentPlane> planes_of(std::span<const LatticePoint> positions, const std::vector<std::uint32_t>& labels,
+                                    double spacing) {
   const std::uint32_t count = labels.empty() ? 0 : *std::max_element(labels.begin(), labels.end());
   std::vector<SegmentPlane> planes(count);
   for (std::uint32_t label = 1; label <= count; ++label) {

@@ -52,7 +52,7 @@ void describe(const std::vector<LatticePoint>& members, SupervoxelTable& table, 
       static_cast<float>(std::sqrt(12.0 * std::sqrt(frame.values.largest * frame.values.middle) / n));
 }
 
-Supervoxels finish(const std::vector<LatticePoint>& positions, std::vector<std::uint32_t> labels, std::int32_t voxel) {
+Supervoxels finish(std::span<const LatticePoint> positions, std::vector<std::uint32_t> labels, std::int32_t voxel) {
   Supervoxels made;
   made.table = table_of(positions, labels, voxel);
   made.labels = std::move(labels);
@@ -61,7 +61,7 @@ Supervoxels finish(const std::vector<LatticePoint>& positions, std::vector<std::
 
 }  // namespace
 
-SupervoxelTable table_of(const std::vector<LatticePoint>& positions, const std::vector<std::uint32_t>& labels,
+SupervoxelTable table_of(std::span<const LatticePoint> positions, const std::vector<std::uint32_t>& labels,
                          std::int32_t voxel) {
   const std::size_t count = labels.empty() ? 1 : std::size_t{1} + *std::max_element(labels.begin(), labels.end());
   SupervoxelTable table;
@@ -127,7 +127,7 @@ Supervoxels supervoxels_of(const Scene& scene, const TilePoints& tile, double st
   return finish(tile.positions, std::move(labels), voxel);
 }
 
-Supervoxels cubic_supervoxels(const std::vector<LatticePoint>& positions, std::int32_t cell, std::int32_t voxel) {
+Supervoxels cubic_supervoxels(std::span<const LatticePoint> positions, std::int32_t cell, std::int32_t voxel) {
   std::map<Key, std::uint32_t> label_of;
   std::vector<std::uint32_t> labels(positions.size());
   for (std::size_t i = 0; i < labels.size(); ++i) {

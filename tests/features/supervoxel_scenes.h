@@ -2,6 +2,7 @@
 /// @file Supervoxels made from what is known of a scene, and what the table says of them.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "contour_scenes.h"
@@ -23,13 +24,13 @@ struct SupervoxelShape {
 };
 
 /// The table of given labels. Adjacent are those with points in the same or in neighbouring voxels of `voxel` steps.
-SupervoxelTable table_of(const std::vector<LatticePoint>& positions, const std::vector<std::uint32_t>& labels,
+SupervoxelTable table_of(std::span<const LatticePoint> positions, const std::vector<std::uint32_t>& labels,
                          std::int32_t voxel);
 
 /// One supervoxel per face of the scene and cell of an absolute grid.
 Supervoxels supervoxels_of(const Scene& scene, const TilePoints& tile, double step, const SupervoxelShape& shape);
 
 /// One supervoxel per cube of `cell` steps, whatever is in it.
-Supervoxels cubic_supervoxels(const std::vector<LatticePoint>& positions, std::int32_t cell, std::int32_t voxel);
+Supervoxels cubic_supervoxels(std::span<const LatticePoint> positions, std::int32_t cell, std::int32_t voxel);
 
 }  // namespace arris::test

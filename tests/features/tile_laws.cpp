@@ -42,8 +42,8 @@ TilePoints reordered(const TilePoints& tile, std::uint64_t seed) {
   return shuffled;
 }
 
-std::vector<LatticePoint> anywhere(const std::vector<LatticePoint>& positions) {
-  std::vector<LatticePoint> moved = positions;
+LatticePoints anywhere(std::span<const LatticePoint> positions) {
+  LatticePoints moved(positions.begin(), positions.end());
   LatticeBox box;
   for (const LatticePoint& p : moved) box.include(p);
   const auto shift = [&](int axis) {

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <ostream>
+#include <span>
 #include <vector>
 
 #include "core/tile_points.h"
@@ -29,7 +30,7 @@ void expect_equal(const TileContours& a, const TileContours& b);
 TilePoints reordered(const TilePoints& tile, std::uint64_t seed);
 
 /// The positions moved by whole steps, up to the very ends of int32.
-std::vector<LatticePoint> anywhere(const std::vector<LatticePoint>& positions);
+LatticePoints anywhere(std::span<const LatticePoint> positions);
 
 /// The points of `tile` inside `core` expanded by `halo`, with what belongs to them.
 TilePoints part_of(const TilePoints& tile, const LatticeBox& core, std::int64_t halo);

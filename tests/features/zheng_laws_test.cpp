@@ -180,7 +180,7 @@ TEST(ZhengMethod, TwoWallsOfOneSupervoxelEach_MeetInContactsOfARightAngle) {
   }
   TilePoints tile;
   tile.core = tile.covered = everything();
-  tile.positions = positions;
+  tile.positions.assign(positions.begin(), positions.end());
   for (std::size_t i = 0; i < positions.size(); ++i) tile.ids.push_back(i);
   ZhengParameters p;
   p.spacing = 1.0;

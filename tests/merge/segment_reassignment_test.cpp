@@ -194,18 +194,26 @@ TEST(Reassignment, DuplicatesFollowAndCount) {
 }
 
 TEST(SegmentFrontier, KeepBorder_DropsWhatIsInsideOneSegment) {
-  const test::TempFolder folder;
-  Gable gable(folder.path());
-  gable.build([](int c, int) { return c < 0 ? 1U : c == 0 ? 0U : 2U; });
-  gable.frontier.keep_border(gable.labels);
-  EXPECT_EQ(gable.frontier.records(), 3U * Gable::kLength);
-  gable.frontier.for_each_block([&](const FrontierBlock& points) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const FrontierPoint p = points.point(i);
-      EXPECT_LE(std::abs(p.position.x), Gable::kStep);
-      EXPECT_GE(p.neighbours.size(), 3U);
-    }
-  });
+  std::vector<std::uint32_t> from_disk;
+  for (const std::uint64_t most_bytes : {std::uint64_t{0}, std::uint64_t{1000}, std::uint64_t{1} << 30}) {
+    const test::TempFolder folder;
+    Gable gable(folder.path());
+    gable.build([](int c, int) { return c < 0 ? 1U : c == 0 ? 0U : 2U; });
+    gable.frontier.keep_border(gable.labels, most_bytes);
+    EXPECT_EQ(gable.frontier.records(), 3U * Gable::kLength);
+    std::vector<std::uint32_t> ids;
+    gable.frontier.for_each_block([&](const FrontierBlock& points) {
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const FrontierPoint p = points.point(i);
+        EXPECT_LE(std::abs(p.position.x), Gable::kStep);
+        EXPECT_GE(p.neighbours.size(), 3U);
+        ids.push_back(p.id);
+        ids.insert(ids.end(), p.neighbours.begin(), p.neighbours.end());
+      }
+    });
+    if (most_bytes == 0) from_disk = ids;
+    EXPECT_EQ(ids, from_disk);
+  }
 }
 
 TEST(SegmentSides, PointsOnBothSides_TellNothing) {
@@ -220,6 +228,22 @@ TEST(SegmentSides, PointsOnBothSides_TellNothing) {
   EXPECT_EQ(sides.side(1, 2), 0);
   for (int i = 0; i < 9; ++i) sides.add(1, 2, {i, 0, -11});
   EXPECT_EQ(sides.side(1, 2), -1);
+}
+
+TEST(SegmentSides, SumsOfParts_AreTheSumOfAll) {
+  std::vector<SegmentPlane> planes(2);
+  planes[0].spacing = planes[1].spacing = 10.0;
+  SegmentSides all(planes), part(planes);
+  for (int i = 0; i < 3; ++i) all.add(1, 2, {0, 0, 12});
+  part.add(1, 2, {0, 0, -12}, 3);
+  all.add(part);
+  EXPECT_EQ(all.side(1, 2), 0);
+  part.add(2, 1, {0, 0, 5});
+  all.add(part);
+  EXPECT_EQ(all.side(1, 2), 0);
+  EXPECT_EQ(all.side(2, 1), 1);
+  all.add(part);
+  EXPECT_EQ(all.side(1, 2), -1);
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ namespace {
 using Record = std::pair<LatticePoint, std::uint64_t>;
 
 std::multiset<Record> spool_of(const std::filesystem::path& folder, std::size_t tile) {
-  std::vector<LatticePoint> positions;
-  std::vector<std::uint64_t> ids;
+  LatticePoints positions;
+  PointIds ids;
   read_spool(spool_path(folder, tile), positions, ids);
   std::multiset<Record> records;
   for (std::size_t i = 0; i < positions.size(); ++i) records.emplace(positions[i], ids[i]);

@@ -151,8 +151,8 @@ void expect_round_trip(io::InputSet& inputs, std::uint64_t max_points) {
   }
   std::vector<bool> seen(expected.size(), false);
   for (std::size_t tile = 0; tile < plan.tiles.size(); ++tile) {
-    std::vector<LatticePoint> owned;
-    std::vector<std::uint64_t> ids;
+    LatticePoints owned;
+    PointIds ids;
     store.load_core(
         tile, [](const LatticePoint&) { return true; }, owned, ids);
     EXPECT_EQ(owned.size(), plan.tiles[tile].core_points);

@@ -77,8 +77,8 @@ RC_GTEST_PROP(TileStore, AnyCloud_ComesBackWithoutLossFoldedInZOrder, ()) {
   RC_ASSERT(!std::filesystem::exists(spool_path(tile.folder.path(), 0)));
 
   TilePoints folded;
-  auto copy = points;
-  std::vector<std::uint64_t> ids(points.size());
+  LatticePoints copy(points.begin(), points.end());
+  PointIds ids(points.size());
   for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = i;
   fold_duplicates(std::move(copy), std::move(ids), folded);
   RC_ASSERT(folded.positions == loaded.positions);
@@ -165,8 +165,8 @@ TEST(TileStore, OnePoint_ComesBack) {
   OneTile tile({{-7, 8, -9}});
   tile.store.build(0);
   const TilePoints loaded = tile.store.load(0);
-  EXPECT_EQ(loaded.positions, (std::vector<LatticePoint>{{-7, 8, -9}}));
-  EXPECT_EQ(loaded.ids, (std::vector<std::uint64_t>{0}));
+  EXPECT_EQ(loaded.positions, (LatticePoints{{-7, 8, -9}}));
+  EXPECT_EQ(loaded.ids, (PointIds{0}));
   EXPECT_EQ(loaded.core, kEverything);
   EXPECT_EQ(loaded.covered, kEverything.expanded(5));
 }
@@ -190,12 +190,12 @@ TEST(TileStore, LoadCore_GivesOwnedAndKeptPointsOnly) {
   const LatticeBox core{{0, 0, 0}, {10, 10, 10}};
   OneTile tile({{0, 0, 0}, {9, 9, 9}, {10, 0, 0}, {-1, 0, 0}, {5, 5, 5}, {5, 5, 5}}, core);
   tile.store.build(0);
-  std::vector<LatticePoint> positions{{77, 77, 77}};
-  std::vector<std::uint64_t> ids{77};
+  LatticePoints positions{{77, 77, 77}};
+  PointIds ids{77};
   tile.store.load_core(
       0, [](const LatticePoint& p) { return p.x > 0; }, positions, ids);
-  EXPECT_EQ(positions, (std::vector<LatticePoint>{{77, 77, 77}, {5, 5, 5}, {5, 5, 5}, {9, 9, 9}}));
-  EXPECT_EQ(ids, (std::vector<std::uint64_t>{77, 4, 5, 1}));
+  EXPECT_EQ(positions, (LatticePoints{{77, 77, 77}, {5, 5, 5}, {5, 5, 5}, {9, 9, 9}}));
+  EXPECT_EQ(ids, (PointIds{77, 4, 5, 1}));
 }
 
 TEST(TileStore, EveryBitFlip_IsDetected) {

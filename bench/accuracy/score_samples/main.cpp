@@ -36,8 +36,8 @@ Scan read_scan(const std::string& path) {
   if (!info.scaled_integers) throw arris::InputError(path + ": is no LAS file, whose scale the lattice is made of");
   Scan scan;
   scan.lattice = {info.scale[0], info.offset};
-  std::vector<arris::LatticePoint> positions;
-  std::vector<std::uint64_t> ids;
+  arris::LatticePoints positions;
+  arris::PointIds ids;
   arris::io::PointBatch batch;
   while (source->read(batch, {})) {
     for (std::size_t i = 0; i < batch.count; ++i) {

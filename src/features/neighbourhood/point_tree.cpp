@@ -85,7 +85,7 @@ void select(std::span<Item> items, std::size_t nth, int axis) {
 }
 
 struct Builder {
-  std::vector<Item>& items;
+  PageVector<Item>& items;
   std::vector<OuterBox>& boxes;
   int depth;
 
@@ -126,7 +126,7 @@ PointTree::PointTree(std::span<const LatticePoint> positions, std::span<const st
   const std::size_t n = positions.size();
   while ((n >> depth_) >= kBucketPoints) ++depth_;
   boxes_.resize(2 * buckets());
-  std::vector<Item> items(n);
+  PageVector<Item> items(n);
   for (std::size_t i = 0; i < n; ++i) {
     items[i] = {{positions[i].x, positions[i].y, positions[i].z}, static_cast<std::uint32_t>(i)};
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/lattice.h"
+#include "core/pages.h"
 #include "features/neighbourhood/outer_box.h"
 
 namespace arris {
@@ -61,9 +62,9 @@ class PointTree {
 
  private:
   int depth_ = 0;
-  std::vector<std::int32_t> x_, y_, z_;
-  std::vector<std::uint32_t> entries_;
-  std::vector<std::uint64_t> ids_;
+  PageVector<std::int32_t> x_, y_, z_;
+  PageVector<std::uint32_t> entries_;
+  PageVector<std::uint64_t> ids_;
   std::vector<OuterBox> boxes_;  ///< Heap order: node 1 is the root, children 2i and 2i + 1.
 };
 

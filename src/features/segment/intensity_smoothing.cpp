@@ -94,9 +94,9 @@ class Smoother {
 
 }  // namespace
 
-std::vector<std::uint8_t> smoothed_intensities(const TileNeighbourhoods& points,
-                                               std::span<const std::uint8_t> intensities) {
-  std::vector<std::uint8_t> smooth(intensities.begin(), intensities.end());
+PageVector<std::uint8_t> smoothed_intensities(const TileNeighbourhoods& points,
+                                              std::span<const std::uint8_t> intensities) {
+  PageVector<std::uint8_t> smooth(intensities.begin(), intensities.end());
   parallel_for_chunks(smooth.size(), kGrain, [&](std::size_t first, std::size_t last) {
     Smoother smoother(points, intensities, smooth);
     for (std::size_t i = first; i < last; ++i) {

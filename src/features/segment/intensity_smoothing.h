@@ -3,15 +3,15 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "core/pages.h"
 #include "features/segment/tile_neighbourhoods.h"
 
 namespace arris {
 
 /// Every point that has a shape gets the median of its own intensity and its neighbours' (of an even number the upper
 /// one): noise goes, the borders of materials stay where they are. Per slot of the tree. Runs in parallel.
-std::vector<std::uint8_t> smoothed_intensities(const TileNeighbourhoods& points,
-                                               std::span<const std::uint8_t> intensities);
+PageVector<std::uint8_t> smoothed_intensities(const TileNeighbourhoods& points,
+                                              std::span<const std::uint8_t> intensities);
 
 }  // namespace arris

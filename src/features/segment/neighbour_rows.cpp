@@ -5,7 +5,7 @@
 namespace arris {
 
 NeighbourRows::NeighbourRows(std::size_t slots, std::size_t most)
-    : most_(most), near_(slots * most + kMostNeighbours), counts_(slots) {}
+    : most_(most), near_(slots * most + kMostNeighbours), counts_(slots, 0) {}
 
 NeighbourRows::Sheet NeighbourRows::take_sheet() {
   const std::lock_guard lock(mutex_);

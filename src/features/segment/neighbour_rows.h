@@ -87,7 +87,7 @@ class NeighbourRows {
 
   std::size_t most_;
   PageVector<std::int16_t> near_;  ///< Written where asked for only.
-  std::vector<std::uint8_t> counts_;
+  PageVector<std::uint8_t> counts_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<std::uint32_t[]>> sheets_;
   std::vector<Sheet> open_;  ///< Not full, and with no writer.

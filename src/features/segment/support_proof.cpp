@@ -34,13 +34,14 @@ SupportProof::Depth SupportProof::depth_around(std::uint32_t slot, double radius
 class SupportProof::BadSlots {
  public:
   BadSlots(const SupportProof& proof, const LatticeBox& covered)
-      : proof_(proof), covered_(covered), bad_(proof.tree_.size()), blocks_((bad_.size() + kGrain - 1) / kGrain) {
-    for_each_block([&](std::size_t block, std::uint32_t slot) {
-      const TileNeighbourhoods& points = proof_.points_;
-      if (points.state(slot) == ShapeState::kUnasked) return;
-      const double depth = depth_of(slot), reach = points.reach_of(slot);
-      blocks_[block].shallowest = std::min(blocks_[block].shallowest, depth - reach);
-      if (!(reach < depth)) mark(block, slot, depth);
+      : proof_(proof), covered_(covered), bad_(proof.tree_.size(), 0), blocks_((bad_.size() + kGrain - 1) / kGrain) {
+    parallel_for_chunks(bad_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+      Block& block = blocks_[first / kGrain];
+      const std::optional<double> reach = proof_.points_.most_reach(first, last);
+      if (!reach) return;
+      block.shallowest = least_depth(first, last) - *reach;
+      if (block.shallowest > 0.0) return;  // All reaches are less than all depths.
+      for (std::size_t slot = first; slot < last; ++slot) judge(block, static_cast<std::uint32_t>(slot));
     });
   }
 
@@ -51,13 +52,13 @@ class SupportProof::BadSlots {
   /// distance: where that is deeper than any that is bad, there is nothing to look for.
   void widen() {
     const double deepest_before = deepest();
-    const std::vector<std::uint8_t> before = bad_;
+    const PageVector<std::uint8_t> before = bad_;
     for_each_block(
         [&](std::size_t block, std::uint32_t slot) {
           if (before[slot] != 0) return;
           for (const std::uint32_t neighbour : proof_.points_.neighbours(slot)) {
             if (before[neighbour] == 0) continue;
-            mark(block, slot, depth_of(slot));
+            mark(blocks_[block], slot, depth_of(slot));
             return;
           }
         },
@@ -72,9 +73,28 @@ class SupportProof::BadSlots {
   };
 
   double depth_of(std::uint32_t slot) const { return static_cast<double>(covered_.depth(proof_.tree_.position(slot))); }
-  void mark(std::size_t block, std::uint32_t slot, double depth) {
+  /// Of slots that were asked for, of which there is one at least: that of the corners of their box.
+  double least_depth(std::size_t first, std::size_t last) const {
+    constexpr std::int32_t kLowest = std::numeric_limits<std::int32_t>::min();
+    constexpr std::int32_t kHighest = std::numeric_limits<std::int32_t>::max();
+    LatticePoint low{kHighest, kHighest, kHighest}, high{kLowest, kLowest, kLowest};
+    for (std::size_t slot = first; slot < last; ++slot) {
+      if (proof_.points_.state(static_cast<std::uint32_t>(slot)) == ShapeState::kUnasked) continue;
+      const LatticePoint p = proof_.tree_.position(slot);
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return static_cast<double>(std::min(covered_.depth(low), covered_.depth(high)));
+  }
+  void judge(Block& block, std::uint32_t slot) {
+    const TileNeighbourhoods& points = proof_.points_;
+    if (points.state(slot) == ShapeState::kUnasked) return;
+    const double depth = depth_of(slot);
+    if (!(points.reach_of(slot) < depth)) mark(block, slot, depth);
+  }
+  void mark(Block& block, std::uint32_t slot, double depth) {
     bad_[slot] = 1;
-    blocks_[block].deepest = std::max(blocks_[block].deepest, depth);
+    block.deepest = std::max(block.deepest, depth);
   }
   double deepest() const {
     double most = kNone;
@@ -93,11 +113,11 @@ class SupportProof::BadSlots {
 
   const SupportProof& proof_;
   const LatticeBox& covered_;
-  std::vector<std::uint8_t> bad_;
+  PageVector<std::uint8_t> bad_;
   std::vector<Block> blocks_;
 };
 
-std::vector<std::uint32_t> SupportProof::unproven(const std::vector<std::uint8_t>& is_query,
+std::vector<std::uint32_t> SupportProof::unproven(std::span<const std::uint8_t> is_query,
                                                   const LatticeBox& covered) const {
   BadSlots bad(*this, covered);
   std::vector<std::uint32_t> slots;

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/lattice.h"
+#include "core/pages.h"
 #include "features/neighbourhood/point_tree.h"
 #include "features/segment/tile_neighbourhoods.h"
 
@@ -20,7 +22,7 @@ class SupportProof {
       : tree_(tree), points_(points), rings_(rings) {}
 
   /// Queries whose support is not inside of `covered`, ascending. O(points).
-  std::vector<std::uint32_t> unproven(const std::vector<std::uint8_t>& is_query, const LatticeBox& covered) const;
+  std::vector<std::uint32_t> unproven(std::span<const std::uint8_t> is_query, const LatticeBox& covered) const;
 
   /// How far around a slot space is known, steps: no unseen position is nearer.
   using Depth = std::function<double(std::uint32_t slot)>;

@@ -33,7 +33,7 @@ class Grower {
         covered_(tile.covered),
         tree_(tile.positions, tile.ids),
         points_(tree_, lattice, parameters),
-        is_query_(tree_.size()),
+        is_query_(tree_.size(), 0),
         intensities_(slot_intensities(intensities)),
         likeness_(points_, intensities_, parameters) {
     choose_queries(tile, queries);
@@ -69,8 +69,8 @@ class Grower {
   /// Some neighbours are needed, not all: those of queries. Two more rings around them, or one.
   int rings() const { return parameters_.published ? 1 : 2; }
 
-  std::vector<std::uint8_t> slot_intensities(std::span<const std::uint8_t> of_entry) const {
-    std::vector<std::uint8_t> of_slot(parameters_.intensity ? of_entry.size() : 0);
+  PageVector<std::uint8_t> slot_intensities(std::span<const std::uint8_t> of_entry) const {
+    PageVector<std::uint8_t> of_slot(parameters_.intensity ? of_entry.size() : 0);
     for (std::size_t slot = 0; slot < of_slot.size(); ++slot) of_slot[slot] = of_entry[tree_.entry(slot)];
     return of_slot;
   }
@@ -125,8 +125,8 @@ class Grower {
     return any;
   }
 
-  std::vector<std::uint8_t> wanted_of(std::uint8_t ring) const {
-    std::vector<std::uint8_t> wanted(ring_.size());
+  PageVector<std::uint8_t> wanted_of(std::uint8_t ring) const {
+    PageVector<std::uint8_t> wanted(ring_.size());
     for (std::size_t slot = 0; slot < ring_.size(); ++slot) wanted[slot] = ring_[slot] == ring;
     return wanted;
   }
@@ -169,7 +169,7 @@ class Grower {
 
   /// Growing is asked of queries and their neighbours only.
   void choose_growing() {
-    grows_.resize(tree_.size());
+    grows_.assign(tree_.size(), 0);
     parallel_for_chunks(tree_.size(), kGrain, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         const auto slot = static_cast<std::uint32_t>(i);
@@ -180,20 +180,33 @@ class Grower {
     });
   }
 
+  /// Whether all are seen to be linked with the points of `root` at first sight: what most points end with.
+  bool all_below(std::uint32_t root, const NeighbourList& neighbours) const {
+    for (const std::uint32_t neighbour : neighbours)
+      if (sets_.parent(neighbour) != root) return false;
+    return true;
+  }
+
   void find_links() {
     sets_ = DisjointSets(tree_.size());
-    numbered_.resize(tree_.size());
-    among_own_.resize(tree_.size());
+    numbered_.assign(tree_.size(), 0);
+    among_own_.assign(tree_.size(), 0);
     for_each_query([&](std::uint32_t slot) {
       if (points_.state(slot) != ShapeState::kShaped) {
         ++growth_.isolated;
         return;
       }
       std::uint32_t root = sets_.find(slot);
+      const NeighbourList neighbours = points_.neighbours(slot);
+      if (all_below(root, neighbours)) {
+        among_own_[slot] = 1;
+        return;
+      }
       bool all_linked = true;
-      for (const std::uint32_t neighbour : points_.neighbours(slot)) {
+      for (const std::uint32_t neighbour : neighbours) {
+        if (sets_.parent(neighbour) == root) continue;  // Most are linked already.
         const bool both = grows_[slot] && grows_[neighbour];
-        if (both && sets_.find(neighbour) == root) continue;  // Most are linked already.
+        if (both && sets_.find(neighbour) == root) continue;
         if (points_.state(neighbour) != ShapeState::kShaped || !(grows_[slot] || grows_[neighbour]) ||
             !likeness_.alike(slot, neighbour)) {
           all_linked = false;
@@ -282,15 +295,15 @@ class Grower {
   const LatticeBox& covered_;
   PointTree tree_;
   TileNeighbourhoods points_;
-  std::vector<std::uint8_t> is_query_;
-  std::vector<std::uint8_t> ring_;  ///< 0: asked as a query, 1: a neighbour of one, and so on.
+  PageVector<std::uint8_t> is_query_;
+  PageVector<std::uint8_t> ring_;  ///< 0: asked as a query, 1: a neighbour of one, and so on.
   std::vector<std::pair<std::uint32_t, std::int64_t>> reach_;  ///< Slot and reach of listed queries.
-  std::vector<std::uint8_t> intensities_;                      ///< Per slot.
+  PageVector<std::uint8_t> intensities_;                       ///< Per slot.
   Likeness likeness_;
-  std::vector<std::uint8_t> grows_;
+  PageVector<std::uint8_t> grows_;
   DisjointSets sets_;
-  std::vector<std::uint8_t> numbered_;   ///< Has a link or makes an offer.
-  std::vector<std::uint8_t> among_own_;  ///< Every neighbour was seen to be in the same set.
+  PageVector<std::uint8_t> numbered_;   ///< Has a link or makes an offer.
+  PageVector<std::uint8_t> among_own_;  ///< Every neighbour was seen to be in the same set.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> offers_;
   PageVector<std::uint32_t> component_;
   TileGrowth growth_;

@@ -1,5 +1,6 @@
 #include "features/segment/tile_neighbourhoods.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -13,6 +14,8 @@ namespace {
 
 constexpr std::size_t kChunkBuckets = 64;
 constexpr std::size_t kLeastNeighbours = 3;
+/// Rounding of a distance must not make a ball too small.
+constexpr double kRoundedUp = 1.0 + 1e-12;
 
 }  // namespace
 
@@ -81,11 +84,11 @@ TileNeighbourhoods::TileNeighbourhoods(const PointTree& tree, const Lattice& lat
       reach_steps_(parameters.reach() / lattice.step),
       weights_{parameters.inlier_distance / lattice.step, parameters.published},
       rows_(tree.size(), rule_.most()),
-      wanted_(tree.size()),
+      wanted_(tree.size(), 0),
       shapes_(tree.size()),
       states_(tree.size(), ShapeState::kUnasked) {}
 
-void TileNeighbourhoods::compute(const std::vector<std::uint8_t>& wanted) {
+void TileNeighbourhoods::compute(std::span<const std::uint8_t> wanted) {
   parallel_for_chunks(tree_.buckets(), kChunkBuckets, [&](std::size_t first, std::size_t last) {
     Runner runner(*this);
     std::vector<std::uint32_t> slots;
@@ -110,8 +113,23 @@ double TileNeighbourhoods::reach_of(std::uint32_t slot) const {
   return distance(slot, last_neighbour(slot));
 }
 
+std::optional<double> TileNeighbourhoods::most_reach(std::size_t first, std::size_t last) const {
+  std::uint64_t most2 = 0;
+  bool any = false, all_full = true;
+  for (std::size_t i = first; i < last; ++i) {
+    const auto slot = static_cast<std::uint32_t>(i);
+    if (states_[slot] == ShapeState::kUnasked) continue;
+    any = true;
+    all_full = all_full && full(slot);
+    if (count(slot) > 0)
+      most2 = std::max(most2, squared_distance(tree_.position(slot), tree_.position(last_neighbour(slot))));
+  }
+  if (!any) return std::nullopt;
+  return all_full ? std::sqrt(static_cast<double>(most2)) * kRoundedUp : reach_steps_;
+}
+
 double TileNeighbourhoods::distance(std::uint32_t a, std::uint32_t b) const {
-  return std::sqrt(static_cast<double>(squared_distance(tree_.position(a), tree_.position(b)))) * (1.0 + 1e-12);
+  return std::sqrt(static_cast<double>(squared_distance(tree_.position(a), tree_.position(b)))) * kRoundedUp;
 }
 
 std::optional<double> TileNeighbourhoods::ball_of_most(std::uint32_t slot) const {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "core/lattice.h"
+#include "core/pages.h"
 #include "features/neighbourhood/neighbour_search.h"
 #include "features/neighbourhood/point_tree.h"
 #include "features/segment/neighbour_rows.h"
@@ -36,7 +36,7 @@ class TileNeighbourhoods {
   TileNeighbourhoods(const PointTree& tree, const Lattice& lattice, const SegmentParameters& parameters);
 
   /// Computes the slots whose state is kUnasked and whose `wanted` is not 0.
-  void compute(const std::vector<std::uint8_t>& wanted);
+  void compute(std::span<const std::uint8_t> wanted);
 
   ShapeState state(std::uint32_t slot) const { return states_[slot]; }
   const PointShape& shape(std::uint32_t slot) const { return shapes_[slot]; }
@@ -50,6 +50,8 @@ class TileNeighbourhoods {
   /// Distance in steps within which the neighbours must lie, from those found; max_reach_steps() if they are too few.
   double reach_of(std::uint32_t slot) const;
   double max_reach_steps() const { return reach_steps_; }
+  /// No reach_of() of those of slots [first, last) that were asked for is more; none: there are none.
+  std::optional<double> most_reach(std::size_t first, std::size_t last) const;
   /// The radius of a ball around the point that holds as many others as any point may want; none: they are not in
   /// sight.
   std::optional<double> ball_of_most(std::uint32_t slot) const;
@@ -64,9 +66,9 @@ class TileNeighbourhoods {
   double reach_steps_;
   PlaneWeights weights_;
   NeighbourRows rows_;
-  std::vector<std::uint8_t> wanted_;
+  PageVector<std::uint8_t> wanted_;
   PageVector<PointShape> shapes_;  ///< Where there is one.
-  std::vector<ShapeState> states_;
+  PageVector<ShapeState> states_;
 };
 
 }  // namespace arris
