@@ -86,9 +86,9 @@ LatticePoint LeafIndex::origin(std::size_t leaf) const {
   return {scaled(key.x), scaled(key.y), scaled(key.z)};
 }
 
-void LeafIndex::group(std::span<const LatticePoint> points, std::vector<std::uint32_t>& order,
+void LeafIndex::group(std::span<const LatticePoint> points, PageVector<std::uint32_t>& order,
                       std::vector<std::uint32_t>& begin) const {
-  std::vector<std::uint32_t> leaf_of(points.size());
+  PageVector<std::uint32_t> leaf_of(points.size());
   begin.assign(keys_.size() + 1, 0);
   const std::size_t mask = slots_.size() - 1;
   LatticePoint last{};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/lattice.h"
+#include "core/pages.h"
 
 namespace arris::tiling {
 
@@ -32,7 +33,7 @@ class LeafIndex {
   LatticePoint origin(std::size_t leaf) const;
   /// Fills `order` with the indices of all points, leaf by leaf, ascending within a leaf; `begin` gets size() + 1
   /// starts.
-  void group(std::span<const LatticePoint> points, std::vector<std::uint32_t>& order,
+  void group(std::span<const LatticePoint> points, PageVector<std::uint32_t>& order,
              std::vector<std::uint32_t>& begin) const;
 
  private:

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/pages.h"
 #include "core/parallel.h"
 #include "tiling/leaf_index.h"
 #include "tiling/morton.h"
@@ -163,7 +164,8 @@ LatticeBox box_of(const Leaf& leaf, int log2) {
 /// The tree of a cloud that is not scattered.
 PointDataTree::Ptr make_tree(std::span<const LatticePoint> positions, std::span<const std::uint64_t> ids,
                              const LeafIndex& index, int log2) {
-  std::vector<std::uint32_t> order, begin;
+  PageVector<std::uint32_t> order;
+  std::vector<std::uint32_t> begin;
   index.group(positions, order, begin);
   const auto descriptor =
       Descriptor::create(openvdb::points::TypedAttributeArray<openvdb::Vec3f, FixedCodec>::attributeType())

@@ -123,13 +123,12 @@ ARRIS_ALWAYS_INLINE MedianPlane<F> median_plane(const MedianPlan& plan, std::siz
     const TriplePlane<F> plane(x[a], y[a], z[a], x[b], y[b], z[b], x[c], y[c], z[c]);
     // A median is below a limit if more values than come before it are.
     const F limit = plane.norm2 > kLeastCross2 ? medians.least() : zero;
-    Bits minus_below{};
+    Bits below{};
     for (std::size_t i = 0; i < n; ++i) {
       const F d = plane.nx * x[i] + plane.ny * y[i] + plane.nz * z[i] - plane.offset;
       distances[i] = (Bits)d & 0x7fffffff;
-      minus_below += (distances[i] - (Bits)limit) >> 31;  // -1 if below: neither is negative.
+      below = distances[i] < (Bits)limit ? below + 1 : below;  // Neither is negative.
     }
-    const Bits below = -minus_below;
     for (std::size_t lane = 0; lane < LeastMedians<F>::kLanes; ++lane)
       if (below[lane] > static_cast<std::int32_t>(plan.median)) medians.add(triple, lane, n, distances);
   }
