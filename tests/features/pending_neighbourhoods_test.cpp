@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "features/numerics/simd_transpose.h"
+#include "features/numerics/transpose.h"
 
 namespace arris {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-/// @file Rows to columns, in registers.
+/// @file Rows to columns.
 
 #include <cstddef>
 #include <utility>
@@ -31,11 +31,23 @@ ARRIS_ALWAYS_INLINE void transpose_from(V* rows) {
 
 }  // namespace detail
 
-/// rows[i][j] becomes rows[j][i], for as many rows as a vector has lanes.
+/// In registers: rows[i][j] becomes rows[j][i], for as many rows as a vector has lanes.
 template <std::size_t Lanes, class V>
 ARRIS_ALWAYS_INLINE void transpose(V* rows) {
   static_assert(sizeof(V) == Lanes * sizeof(rows[0][0]));
   detail::transpose_from<1, Lanes>(rows);
+}
+
+/// A square block of doubles, as many rows as V has lanes. @param from_stride, to_stride  from one row to the next.
+template <class V>
+ARRIS_ALWAYS_INLINE void transpose(const double* from, std::size_t from_stride, double* to, std::size_t to_stride) {
+  constexpr std::size_t kLanes = sizeof(V) / sizeof(double);
+  V rows[kLanes];
+  ARRIS_UNROLL
+  for (std::size_t i = 0; i < kLanes; ++i) rows[i] = load<V>(from + i * from_stride);
+  transpose<kLanes>(rows);
+  ARRIS_UNROLL
+  for (std::size_t i = 0; i < kLanes; ++i) store(to + i * to_stride, rows[i]);
 }
 
 }  // namespace arris::simd

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "features/numerics/simd.h"
-#include "features/numerics/simd_transpose.h"
+#include "features/numerics/transpose.h"
 
 namespace arris {
 
