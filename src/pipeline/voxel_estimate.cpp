@@ -17,7 +17,7 @@ namespace arris::pipeline {
 namespace {
 
 /// Of runs, where there are any: neighbours in the file are neighbours in space, but a street is scanned twice.
-constexpr double kRunEntries = 1.25;
+constexpr double kRunEntries = 1.28;
 constexpr double kTableEntryBytes = sizeof(tiling::VoxelSums) + tiling::kOrderBytes;
 /// Neighbours of a voxel of a surface.
 constexpr double kNeighbours = 12.0;
