@@ -12,9 +12,8 @@
 namespace arris::pipeline {
 namespace {
 
-/// Bytes of a cluster in all tables, for predictions before the clusters are known.
-constexpr std::uint64_t kClusterBytes = 260;
-constexpr std::uint64_t kClusterHistogramBytes = 400;
+constexpr double kClusterBytes = 260.0;
+constexpr double kClusterHistogramBytes = 400.0;
 
 class Clustering {
  public:
@@ -32,10 +31,11 @@ class Clustering {
     lone_.assign(voxels, false);
     kept_bytes += sizeof(std::uint32_t) * std::uint64_t{voxels} + voxels / 8;
     const std::uint64_t likely = likely_clusters();
-    walk_.plan(kept_bytes + likely * cluster_bytes());
+    const auto each = static_cast<std::uint64_t>(cluster_bytes(parameters_));
+    walk_.plan(kept_bytes + likely * each);
     if (const std::uint64_t seeds = find_seeds_up_to(likely); seeds > likely) {
       // Tiles must leave them their room.
-      walk_.plan(kept_bytes + seeds * cluster_bytes());
+      walk_.plan(kept_bytes + seeds * each);
       find_seeds_up_to(seeds);
     }
     table_.fix_seeds();
@@ -55,17 +55,12 @@ class Clustering {
   }
 
  private:
-  std::uint64_t cluster_bytes() const {
-    const bool histograms = parameters_.features == SupervoxelParameters::Features::kFpfh;
-    return kClusterBytes + (histograms ? kClusterHistogramBytes : 0);
-  }
   /// Voxels that have a block of the index to themselves are lone, most of them.
   std::uint64_t likely_clusters() const {
-    const double cells = static_cast<double>(scale_.seed_steps) / scale_.voxel_steps;
     const tiling::VoxelIndex& index = walk_.store().index();
     std::uint64_t together = 0;
     for (std::size_t i = 0; i < index.blocks(); ++i) together += index.block(i).voxels > 1 ? index.block(i).voxels : 0;
-    return static_cast<std::uint64_t>(2.0 * static_cast<double>(together) / (cells * cells)) + 1000;
+    return static_cast<std::uint64_t>(pipeline::likely_clusters(static_cast<double>(together), scale_));
   }
 
   /// Puts all seeds into the table if there are no more than `most`, else none. Returns how many there are.
@@ -152,6 +147,16 @@ class Clustering {
 };
 
 }  // namespace
+
+double cluster_bytes(const SupervoxelParameters& parameters) {
+  const bool histograms = parameters.features == SupervoxelParameters::Features::kFpfh;
+  return kClusterBytes + (histograms ? kClusterHistogramBytes : 0.0);
+}
+
+double likely_clusters(double voxels, const SupervoxelScale& scale) {
+  const double cells = static_cast<double>(scale.seed_steps) / scale.voxel_steps;
+  return 2.0 * voxels / (cells * cells) + 1000.0;
+}
 
 ClusterLevel cluster_level(VoxelTileWalk& walk, bool group_leftovers, std::uint64_t kept_bytes,
                            ProgressSink& progress) {

@@ -10,6 +10,11 @@
 
 namespace arris::pipeline {
 
+/// Bytes of a cluster in all tables, for predictions before the clusters are known.
+double cluster_bytes(const SupervoxelParameters& parameters);
+/// @param voxels  that have others near.
+double likely_clusters(double voxels, const SupervoxelScale& scale);
+
 struct ClusterLevel {
   std::vector<std::uint32_t> clusters_of;  ///< Per voxel by rank: below `count`, or kNoCluster.
   std::uint32_t count = 0;

@@ -17,6 +17,7 @@
 #include "pipeline/run_support.h"
 #include "pipeline/supervoxel_scene.h"
 #include "pipeline/tile_stage.h"
+#include "pipeline/voxel_estimate.h"
 #include "pipeline/voxel_memory.h"
 #include "pipeline/widen_stage.h"
 #include "tiling/tile_store.h"
@@ -81,17 +82,19 @@ ExtractReport plan_only(const ExtractRequest& request, ProgressSink& progress, c
   io::InputSet inputs(io::expand_inputs(request.inputs), request.tolerance);
   inputs.exclude(request.exclusion);
   JobPlan plan = survey_job(inputs, request, sink, cancel);
+  std::uint64_t supervoxel_bytes = 0, voxel_temp_bytes = 0;
   if (plan.method.by_supervoxels()) {
-    plan.memory_request.kept_bytes = predicted_scene_bytes(plan.survey, plan.scale);
+    supervoxel_bytes =
+        predicted_supervoxel_bytes(plan.survey, plan.scale, plan.method.supervoxel, VoxelMemory(request.memory_bytes));
+    voxel_temp_bytes = plan.voxel_temp_bytes;
+    plan.voxel_temp_bytes = predicted_store_bytes(plan.survey, plan.scale);
+    plan.memory_request.kept_bytes = predicted_scene_bytes(estimate_voxels(plan.survey, plan.scale));
     plan.memory = plan_memory(plan.memory_request);
   }
   plan_job_tiles(plan, inputs, request, sink, cancel);
   describe_plan(plan, inputs, request, report);
-  if (plan.method.by_supervoxels()) {
-    const std::uint64_t supervoxels =
-        predicted_supervoxel_bytes(plan.survey, plan.scale, plan.method.supervoxel, request.memory_bytes);
-    report.predicted_peak_bytes = std::max(report.predicted_peak_bytes, supervoxels);
-  }
+  report.predicted_peak_bytes = std::max(report.predicted_peak_bytes, supervoxel_bytes);
+  report.predicted_temp_bytes = std::max(report.predicted_temp_bytes, voxel_temp_bytes);
   warn_of_dropped(report, sink);
   watch.lap("survey");
   report.peak_resident_bytes = peak_resident_bytes();

@@ -6,7 +6,7 @@
 #include "features/contour/contour_method.h"
 #include "pipeline/point_selection.h"
 #include "pipeline/run_support.h"
-#include "pipeline/voxel_memory.h"
+#include "pipeline/voxel_estimate.h"
 
 namespace arris::pipeline {
 namespace {

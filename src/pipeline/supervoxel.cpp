@@ -14,6 +14,7 @@
 #include "pipeline/run_support.h"
 #include "pipeline/supervoxel_scene.h"
 #include "pipeline/supervoxel_text.h"
+#include "pipeline/voxel_estimate.h"
 #include "pipeline/voxel_memory.h"
 
 namespace arris::pipeline {
@@ -54,9 +55,9 @@ SupervoxelReport plan_supervoxels(const SupervoxelRequest& request, ProgressSink
   inputs.exclude(request.exclusion);
   const SurveyedScan scan = survey_scan(inputs, request, problems, report, sink, cancel);
   watch.lap("survey");
-  report.voxels = likely_voxels(scan.survey, scan.scale);
+  report.voxels = static_cast<std::uint64_t>(estimate_voxels(scan.survey, scan.scale).voxels);
   report.predicted_peak_bytes =
-      predicted_supervoxel_bytes(scan.survey, scan.scale, report.parameters, request.memory_bytes);
+      predicted_supervoxel_bytes(scan.survey, scan.scale, report.parameters, VoxelMemory(request.memory_bytes));
   report.peak_resident_bytes = peak_resident_bytes();
   return report;
 }

@@ -20,26 +20,33 @@ constexpr double kFullColour = 65535.0;
 /// A tile is not cut below this many voxels for want of memory.
 constexpr std::uint64_t kLeastTileVoxels = 20'000;
 
-/// Neighbours of a voxel, from how full the blocks are: about 8 to 14 on surfaces, 26 in solids. Rather too many.
-double likely_neighbours(const tiling::VoxelIndex& index) {
-  constexpr double kBlockVoxels = 512.0;
-  double filled = 0.0;
+/// Of the block of a voxel, on average.
+double block_voxels(const tiling::VoxelIndex& index) {
+  double sum = 0.0;
   for (std::size_t i = 0; i < index.blocks(); ++i) {
     const double voxels = index.block(i).voxels;
-    filled += voxels * voxels / kBlockVoxels;
+    sum += voxels * voxels;
   }
-  const double share = index.size() == 0 ? 0.0 : filled / index.size();
-  return 8.0 + 18.0 * std::min(1.0, 2.0 * share);
+  return index.size() == 0 ? 0.0 : sum / index.size();
 }
 
 }  // namespace
 
+double likely_neighbours(double block_voxels) {
+  constexpr double kBlockVoxels = 512.0;
+  return 8.0 + 18.0 * std::min(1.0, 2.0 * block_voxels / kBlockVoxels);
+}
+
+std::uint64_t most_tile_voxels(double room_bytes, double bytes_per_voxel) {
+  return std::max(kLeastTileVoxels, static_cast<std::uint64_t>(std::max(room_bytes, 0.0) / bytes_per_voxel));
+}
+
 void VoxelTileWalk::plan(std::uint64_t kept_bytes) {
-  const double each =
-      supervoxel_bytes_per_voxel(request_.parameters.features, request_.colours, likely_neighbours(store_.index()));
+  const double each = supervoxel_bytes_per_voxel(request_.parameters.features, request_.colours,
+                                                 likely_neighbours(block_voxels(store_.index())));
   const std::uint64_t room = request_.memory_bytes > kept_bytes ? request_.memory_bytes - kept_bytes : 0;
   tiling::VoxelPlanRequest tiles;
-  tiles.max_voxels = std::max(kLeastTileVoxels, static_cast<std::uint64_t>(static_cast<double>(room) / each));
+  tiles.max_voxels = most_tile_voxels(static_cast<double>(room), each);
   tiles.max_core_voxels = request_.tile_voxels_cap;
   tiles.halo_voxels = request_.scale.halo_voxels();
   plan_ = tiling::plan_voxel_tiles(store_.index(), tiles);

@@ -37,6 +37,12 @@ struct TileWalkRequest {
   std::filesystem::path folder;       ///< For normals, if there are several tiles, and for coarser voxels.
 };
 
+/// Neighbours of a voxel, from how many voxels share a block of the index: about 8 to 14 on surfaces, 26 in solids.
+/// Rather too many. @param block_voxels  mean over voxels.
+double likely_neighbours(double block_voxels);
+/// So many voxels of a tile fit, or the least that a tile is cut to.
+std::uint64_t most_tile_voxels(double room_bytes, double bytes_per_voxel);
+
 /// One tile at a time is in memory; a lone one stays there between walks. Of several, normals are computed once and
 /// kept on disk. Not thread-safe.
 class VoxelTileWalk {

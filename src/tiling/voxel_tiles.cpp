@@ -92,22 +92,29 @@ VoxelTile load(const VoxelStore& store, const PlannedTile& planned, std::span<co
 }  // namespace
 
 TilePlan plan_voxel_tiles(const VoxelIndex& index, const VoxelPlanRequest& request) {
+  return plan_voxel_tiles(
+      [&](const VisitBlock& visit) {
+        for (std::size_t i = 0; i < index.blocks(); ++i) visit(index.block(i).key, index.block(i).voxels);
+      },
+      request);
+}
+
+TilePlan plan_voxel_tiles(const VoxelBlocks& blocks, const VoxelPlanRequest& request) {
   Survey voxels;  // Voxels take the place of points, one to a step.
   voxels.lattice = {1.0, {0.0, 0.0, 0.0}};
-  voxels.bounds = index.bounds();
-  voxels.points_in = index.size();
   voxels.spacing = 1.0;
   voxels.counts = CellCounts(kBlockLevel);
   const auto add_blocks = [&](const PlanCells::Add& add) {
-    for (std::size_t i = 0; i < index.blocks(); ++i) {
-      const VoxelIndex::Block block = index.block(i);
-      const LatticePoint corner{block.key.x * (1 << kBlockLevel), block.key.y * (1 << kBlockLevel),
-                                block.key.z * (1 << kBlockLevel)};
-      add({&corner, 1}, block.voxels);
-    }
+    blocks([&](const LatticePoint& block, std::uint64_t count) {
+      const LatticePoint corner{block.x * (1 << kBlockLevel), block.y * (1 << kBlockLevel),
+                                block.z * (1 << kBlockLevel)};
+      add({&corner, 1}, count);
+    });
   };
   add_blocks(
       [&](std::span<const LatticePoint> corners, std::uint64_t count) { voxels.counts.add(corners.front(), count); });
+  voxels.points_in = voxels.counts.total();
+  voxels.counts.for_each([&](const LatticeBox& cell, std::uint64_t) { voxels.bounds.include(cell); });
   PlanRequest plan;
   plan.max_points = request.max_voxels;
   plan.max_core_points = request.max_core_voxels;

@@ -2,6 +2,7 @@
 /// @file Tiles of voxels: cut by their number, loaded with their halo and neighbours.
 
 #include <cstdint>
+#include <functional>
 
 #include "core/voxel_tile.h"
 #include "tiling/tile_plan.h"
@@ -17,8 +18,13 @@ struct VoxelPlanRequest {
   std::int32_t halo_voxels = 0;       ///< >= 0.
 };
 
+/// Calls visit(key of a block, voxels in it) for blocks, in any order.
+using VisitBlock = std::function<void(const LatticePoint& block_key, std::uint64_t voxels)>;
+using VoxelBlocks = std::function<void(const VisitBlock& visit)>;
+
 /// As plan_tiles(), with boxes and counts in voxels; boxes are of whole blocks of the index. One tile without cuts if
 /// all voxels fit.
+TilePlan plan_voxel_tiles(const VoxelBlocks& blocks, const VoxelPlanRequest& request);
 TilePlan plan_voxel_tiles(const VoxelIndex& index, const VoxelPlanRequest& request);
 
 /// The voxels of a tile's covered box, which is of whole blocks, without neighbours. @param colours  keep colours.

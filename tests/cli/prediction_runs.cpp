@@ -36,6 +36,17 @@ void expect_predictions(std::uint64_t points, const std::vector<std::string>& bu
         EXPECT_GE(predicted, bounds.least * measured) << name << " of " << what;
         EXPECT_LE(predicted, bounds.most * measured) << name << " of " << what;
       };
+      // With little memory a tile more or less decides, by a few MB that differ from run to run.
+      const bool by_voxels = job.back() == "zheng" || job.back() == "supervoxel";
+      if (by_voxels && budget == "1GiB") {
+        std::vector<std::string> plan(job.begin() + (job[0] == "extract" ? 1 : 0), job.end());
+        plan.insert(plan.begin(), "plan");
+        plan.insert(plan.end(), {folder / "scan.las", "--memory", budget, "--threads", "2", "--json"});
+        const ProcessResult planned = run_arris(plan);
+        ASSERT_EQ(planned.exit_code, 0) << what << "\n" << planned.err;
+        expect_near("planned memory", nlohmann::json::parse(planned.out)["memory"]["predicted_peak_bytes"],
+                    static_cast<double>(run.peak_resident_bytes));
+      }
       expect_near("memory", report["memory"]["predicted_peak_bytes"], static_cast<double>(run.peak_resident_bytes));
       expect_near("temporary files", report["temp"]["predicted_bytes"], report["temp"]["measured_peak_bytes"]);
     }

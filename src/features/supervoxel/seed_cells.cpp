@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <mutex>
-#include <unordered_map>
+#include <span>
+#include <tuple>
 #include <utility>
 
 #include "core/parallel.h"
@@ -19,15 +20,6 @@ std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
   const std::int64_t q = a / b;
   return q - (a % b < 0);
 }
-
-struct CellHash {
-  std::size_t operator()(const LatticePoint& c) const {
-    std::uint64_t h = static_cast<std::uint32_t>(c.x) * 0x9E3779B97F4A7C15ULL;
-    h = (h ^ (h >> 32) ^ static_cast<std::uint32_t>(c.y)) * 0x9E3779B97F4A7C15ULL;
-    h = (h ^ (h >> 32) ^ static_cast<std::uint32_t>(c.z)) * 0x9E3779B97F4A7C15ULL;
-    return h ^ (h >> 32);
-  }
-};
 
 /// Squared distance of a centroid from the middle of a cell, in fractions of a step; exact.
 std::uint64_t squared_from_middle(const VoxelTile& tile, std::size_t v, const LatticePoint& cell,
@@ -94,26 +86,37 @@ LatticeBox keys_of(const LatticePoint& cell, const SupervoxelScale& scale) {
 
 /// A cell's best voxel.
 struct CellSeed {
-  std::uint64_t distance2 = ~std::uint64_t{0};  ///< From the middle of the cell.
+  LatticePoint cell;
   std::uint32_t voxel = 0;
+  std::uint64_t distance2 = ~std::uint64_t{0};  ///< From the middle of the cell.
   bool supported = false;
 };
-using CellSeeds = std::unordered_map<LatticePoint, CellSeed, CellHash>;
+/// By cells. A list and not a map: where points are far apart there are as many cells as voxels.
+using CellSeeds = std::vector<CellSeed>;
+
+/// The nearest of each cell, ties: the first voxel.
+void keep_best(CellSeeds& cells) {
+  std::ranges::sort(cells, {}, [](const CellSeed& s) { return std::tuple(s.cell, s.distance2, s.voxel); });
+  const auto rest = std::ranges::unique(cells, {}, &CellSeed::cell);
+  cells.erase(rest.begin(), rest.end());
+}
 
 CellSeeds best_of_cells(const VoxelTile& tile, const SupervoxelScale& scale, std::uint32_t begin, std::uint32_t end) {
   CellSeeds cells;
-  LatticePoint cell;
-  LatticeBox keys;  // Of the cell.
-  CellSeed* last = nullptr;
+  LatticeBox keys;  // Of the last cell.
   for (std::uint32_t v = begin; v < end; ++v) {
     if (!keys.contains(tile.keys[v])) {  // In Z-order the next voxel mostly lies in the same cell.
-      cell = seed_cell(tile.keys[v], scale);
-      keys = keys_of(cell, scale);
-      last = &cells[cell];
+      cells.push_back({seed_cell(tile.keys[v], scale)});
+      keys = keys_of(cells.back().cell, scale);
     }
-    const std::uint64_t distance2 = squared_from_middle(tile, v, cell, scale);
-    if (distance2 < last->distance2) *last = {distance2, v, false};
+    CellSeed& last = cells.back();
+    const std::uint64_t distance2 = squared_from_middle(tile, v, last.cell, scale);
+    if (distance2 < last.distance2) {
+      last.distance2 = distance2;
+      last.voxel = v;
+    }
   }
+  keep_best(cells);
   return cells;
 }
 
@@ -121,27 +124,28 @@ CellSeeds best_of_cells(const VoxelTile& tile, const SupervoxelScale& scale) {
   CellSeeds cells;
   std::mutex mutex;
   parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    CellSeeds some = best_of_cells(tile, scale, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
+    const CellSeeds some =
+        best_of_cells(tile, scale, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
     const std::lock_guard lock(mutex);
-    cells.merge(some);
-    for (const auto& [cell, seed] : some) {  // Those of cells that others have, too. Ties: the first voxel.
-      CellSeed& best = cells[cell];
-      if (std::pair(seed.distance2, seed.voxel) < std::pair(best.distance2, best.voxel)) best = seed;
-    }
+    cells.insert(cells.end(), some.begin(), some.end());
   });
+  keep_best(cells);
   return cells;
 }
 
 /// True if a neighbouring cell has a seed so near that both stand on the same spot of a surface that runs along the
 /// face between the cells, and that one is nearer to the middle of its cell (ties: the smaller cell).
-bool crowded_out(const VoxelTile& tile, const CellSeeds& cells, const LatticePoint& cell, const CellSeed& seed,
-                 double least_distance) {
-  for (int i = 0; i < 27; ++i) {
-    const LatticePoint other_cell{cell.x + i / 9 - 1, cell.y + i / 3 % 3 - 1, cell.z + i % 3 - 1};
-    const auto other = other_cell == cell ? cells.end() : cells.find(other_cell);
-    if (other == cells.end() || !other->second.supported) continue;
-    if (squared_between(tile, seed.voxel, other->second.voxel) >= least_distance * least_distance) continue;
-    if (std::pair(other->second.distance2, other_cell) < std::pair(seed.distance2, cell)) return true;
+bool crowded_out(const VoxelTile& tile, const CellSeeds& cells, const CellSeed& seed, double least_distance) {
+  const LatticePoint& cell = seed.cell;
+  for (int i = 0; i < 9; ++i) {
+    const LatticePoint first{cell.x + i / 3 - 1, cell.y + i % 3 - 1, cell.z - 1};
+    const LatticePoint last{first.x, first.y, cell.z + 1};
+    for (auto other = std::ranges::lower_bound(cells, first, {}, &CellSeed::cell);
+         other != cells.end() && !(last < other->cell); ++other) {
+      if (other->cell == cell || !other->supported) continue;
+      if (squared_between(tile, seed.voxel, other->voxel) >= least_distance * least_distance) continue;
+      if (std::pair(other->distance2, other->cell) < std::pair(seed.distance2, cell)) return true;
+    }
   }
   return false;
 }
@@ -150,24 +154,18 @@ bool crowded_out(const VoxelTile& tile, const CellSeeds& cells, const LatticePoi
 
 std::vector<Seed> find_seeds(const VoxelTile& tile, const SupervoxelScale& scale) {
   CellSeeds cells = best_of_cells(tile, scale);
-  std::vector<CellSeeds::value_type*> all;
-  all.reserve(cells.size());
-  for (auto& cell : cells) all.push_back(&cell);
-  std::ranges::sort(all, {},
-                    [](const auto* cell) { return cell->second.voxel; });  // What is near is looked at together.
-  parallel_for_chunks(all.size(), kCellGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) all[i]->second.supported = supported(tile, all[i]->second.voxel, scale);
+  parallel_for_chunks(cells.size(), kCellGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) cells[i].supported = supported(tile, cells[i].voxel, scale);
   });
   const double least_distance =
       kLeastSeedDistance * static_cast<double>(kVoxelFractions) * static_cast<double>(scale.seed_steps);
   std::vector<Seed> seeds;
   std::mutex mutex;
-  parallel_for_chunks(all.size(), kCellGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for_chunks(cells.size(), kCellGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<Seed> found;
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto& [cell, seed] = *all[i];
+    for (const CellSeed& seed : std::span(cells).subspan(begin, end - begin)) {
       if (tile.core[seed.voxel] == 0 || !seed.supported) continue;
-      if (!crowded_out(tile, cells, cell, seed, least_distance)) found.push_back({cell, seed.voxel});
+      if (!crowded_out(tile, cells, seed, least_distance)) found.push_back({seed.cell, seed.voxel});
     }
     const std::lock_guard lock(mutex);
     seeds.insert(seeds.end(), found.begin(), found.end());

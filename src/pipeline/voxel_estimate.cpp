@@ -1,0 +1,174 @@
+#include "pipeline/voxel_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/process_memory.h"
+#include "features/supervoxel/voxel_features.h"
+#include "pipeline/cluster_level.h"
+#include "pipeline/coarser_voxels.h"
+#include "pipeline/voxel_tile_walk.h"
+#include "tiling/voxel_file.h"
+#include "tiling/voxel_order.h"
+#include "tiling/voxel_sums.h"
+#include "tiling/voxel_tiles.h"
+
+namespace arris::pipeline {
+namespace {
+
+/// Of runs, where there are any: neighbours in the file are neighbours in space, but a street is scanned twice.
+constexpr double kRunEntries = 1.28;
+constexpr double kTableEntryBytes = sizeof(tiling::VoxelSums) + tiling::kOrderBytes;
+/// Neighbours of a voxel of a surface.
+constexpr double kNeighbours = 12.0;
+constexpr double kNormalBytes = 12.0;
+/// What voxels next to nothing take besides, as seeds and leftovers. Measured.
+constexpr double kLoneBytes = 24.0;
+/// Per supervoxel: plane, table, neighbours.
+constexpr double kSupervoxelBytes = 120.0;
+
+/// How many cubes of a side the points of a cell fill. Where cubes are larger than cells it is not known.
+class CubesOfCell {
+ public:
+  CubesOfCell(int cell_level, std::int64_t side_steps) {
+    const double sides = std::ldexp(1.0, cell_level) / static_cast<double>(side_steps);
+    flat_ = 0.5 * (1.0 + sides * sides);  // A cell is seldom crossed from side to side.
+  }
+  double operator()(std::uint64_t points) const {
+    constexpr double kTilted = 1.3;  // More than a flat surface crosses. Measured.
+    const auto n = static_cast<double>(points);
+    return std::min(n, kTilted * flat_ * (1.0 - std::exp(-n / flat_)));
+  }
+  /// The share of them that have hardly any neighbours, so that no seed grows there.
+  double lonely(std::uint64_t points) const {
+    constexpr double kDense = 0.4;  // Points per face of a cube. Measured.
+    const double density = static_cast<double>(points) / flat_ / kDense;
+    return std::exp(-density * density);
+  }
+
+ private:
+  double flat_;
+};
+
+double count_of_cubes(const tiling::CellCounts& counts, std::int64_t side_steps) {
+  const CubesOfCell cubes(counts.level(), side_steps);
+  double sum = 0.0;
+  counts.for_each([&](const LatticeBox&, std::uint64_t points) { sum += cubes(points); });
+  return sum;
+}
+
+/// The same for cubes that may be larger than the cells of the survey.
+double count_of_large_cubes(const tiling::CellCounts& counts, std::int64_t side_steps) {
+  const int level = static_cast<int>(std::ceil(std::log2(static_cast<double>(side_steps))));
+  if (level <= counts.level()) return count_of_cubes(counts, side_steps);
+  return count_of_cubes(counts.coarsened(std::min(level, 30)), side_steps);
+}
+
+/// Voxels of the scale that stand for voxels of the finer one that no seed reached.
+double count_of_leftovers(const tiling::CellCounts& counts, const SupervoxelScale& finer,
+                          const SupervoxelScale& scale) {
+  const CubesOfCell before(counts.level(), finer.voxel_steps), cubes(counts.level(), scale.voxel_steps);
+  double sum = 0.0;
+  counts.for_each([&](const LatticeBox&, std::uint64_t points) { sum += before.lonely(points) * cubes(points); });
+  return sum;
+}
+
+double bytes_per_voxel(const VoxelEstimate& estimate, const SupervoxelParameters& parameters) {
+  return supervoxel_bytes_per_voxel(parameters.features, false,
+                                    likely_neighbours(estimate.voxels / std::max(1.0, estimate.blocks)));
+}
+
+/// Covered voxels of the largest tile.
+double largest_tile(const tiling::Survey& survey, const SupervoxelScale& scale, const tiling::VoxelPlanRequest& plan,
+                    double voxels) {
+  if (voxels <= static_cast<double>(plan.max_voxels)) return voxels;
+  const CubesOfCell voxels_of(survey.counts.level(), scale.voxel_steps);
+  const VoxelGrid grid(scale.voxel_steps);
+  const auto blocks = [&](const tiling::VisitBlock& visit) {
+    double whole = 0.0;  // Of what came so far.
+    survey.counts.for_each([&](const LatticeBox& cell, std::uint64_t points) {
+      const double before = std::floor(whole);
+      whole += voxels_of(points);
+      const auto count = static_cast<std::uint64_t>(std::floor(whole) - before);
+      const auto along = [&](int axis) {
+        return grid.voxel_of(static_cast<std::int32_t>((cell.min[axis] + cell.max[axis]) / 2)) >> 3;
+      };
+      if (count > 0) visit({along(0), along(1), along(2)}, count);
+    });
+  };
+  const tiling::TilePlan tiles = tiling::plan_voxel_tiles(blocks, plan);
+  return std::min(voxels, static_cast<double>(tiles.largest_covered_points));
+}
+
+}  // namespace
+
+double VoxelEstimate::lone() const {
+  return std::clamp(2.0 * blocks - voxels, 0.0, voxels);
+}
+
+VoxelEstimate estimate_voxels(const tiling::Survey& survey, const SupervoxelScale& scale) {
+  VoxelEstimate estimate;
+  const std::int64_t side = scale.voxel_steps;
+  estimate.voxels = count_of_cubes(survey.counts, side);
+  estimate.blocks =
+      std::min(estimate.voxels, count_of_large_cubes(survey.counts, tiling::VoxelIndex::kBlockSide * side));
+  const double parts = std::clamp(count_of_large_cubes(survey.counts, tiling::VoxelIndex::kBlockSide * side / 2),
+                                  estimate.blocks, estimate.voxels);
+  estimate.index_bytes = 40.0 * estimate.blocks + 8.0 * parts;
+  estimate.clusters = likely_clusters(estimate.voxels - estimate.blocks, scale);
+  return estimate;
+}
+
+std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+                                         const SupervoxelParameters& parameters, const VoxelMemory& memory) {
+  const VoxelEstimate estimate = estimate_voxels(survey, scale);
+  const double table = std::min(kTableEntryBytes * estimate.voxels, static_cast<double>(memory.table_bytes()));
+  const double counting = static_cast<double>(resident_bytes()) + table + estimate.index_bytes;
+  release_free_memory();
+  const double before = static_cast<double>(resident_bytes()) + estimate.index_bytes;
+  const auto room = static_cast<double>(memory.stage_bytes(static_cast<std::uint64_t>(before)));
+  const double each = bytes_per_voxel(estimate, parameters);
+  double kept = (sizeof(std::uint32_t) + 0.125) * estimate.voxels + cluster_bytes(parameters) * estimate.clusters;
+  tiling::VoxelPlanRequest plan;
+  plan.max_voxels = most_tile_voxels(room - kept, each);
+  plan.halo_voxels = scale.halo_voxels();
+  double peak = kept + each * largest_tile(survey, scale, plan, estimate.voxels) + kLoneBytes * estimate.lone();
+  // Voxels that no seed reaches are clustered again on larger ones, as often as there are larger ones.
+  for (SupervoxelScale finer = scale; can_coarsen(finer); finer = coarser(finer, parameters)) {
+    const SupervoxelScale level = coarser(finer, parameters);
+    const VoxelEstimate all = estimate_voxels(survey, level);
+    const double voxels = count_of_leftovers(survey.counts, finer, level);
+    kept += (2 * sizeof(std::uint32_t) + all.index_bytes / std::max(1.0, all.voxels)) * voxels;
+    const double clusters = likely_clusters(voxels * (1.0 - all.blocks / std::max(1.0, all.voxels)), level);
+    const double lone = voxels * all.lone() / std::max(1.0, all.voxels);
+    const double here =
+        cluster_bytes(parameters) * clusters + bytes_per_voxel(all, parameters) * voxels + kLoneBytes * lone;
+    peak = std::max(peak, std::min(room, kept + here));
+  }
+  const double growing = before + std::max(static_cast<double>(kVoxelPassBytes), peak);
+  return std::max(peak_resident_bytes(), static_cast<std::uint64_t>(std::max(counting, growing)));
+}
+
+std::uint64_t predicted_scene_bytes(const VoxelEstimate& estimate) {
+  return static_cast<std::uint64_t>(estimate.index_bytes + sizeof(std::uint32_t) * estimate.voxels +
+                                    kSupervoxelBytes * (estimate.clusters + estimate.lone()));
+}
+
+std::uint64_t predicted_store_bytes(const tiling::Survey& survey, const SupervoxelScale& scale) {
+  const auto each = static_cast<double>(tiling::VoxelLayout(VoxelGrid(scale.voxel_steps), false).bytes());
+  return static_cast<std::uint64_t>(each * estimate_voxels(survey, scale).voxels);
+}
+
+std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+                                         const VoxelMemory& memory) {
+  const double voxels = estimate_voxels(survey, scale).voxels;
+  const auto room = static_cast<double>(memory.table_bytes() + memory.index_bytes());
+  const bool runs = voxels * kTableEntryBytes > static_cast<double>(memory.table_bytes());
+  const bool tiles =
+      voxels * supervoxel_bytes_per_voxel(SupervoxelParameters::Features::kNormal, false, kNeighbours) > room;
+  // Runs are gone when normals of tiles come.
+  const double beside = std::max(runs ? kRunEntries * sizeof(tiling::VoxelSums) : 0.0, tiles ? kNormalBytes : 0.0);
+  return predicted_store_bytes(survey, scale) + static_cast<std::uint64_t>(voxels * beside);
+}
+
+}  // namespace arris::pipeline

@@ -1,0 +1,41 @@
+#pragma once
+/// @file What the survey's counts foretell of voxels and supervoxels; for plans, before the voxels are known.
+
+#include <cstdint>
+
+#include "features/supervoxel/supervoxel_parameters.h"
+#include "pipeline/voxel_memory.h"
+#include "tiling/survey.h"
+
+namespace arris::pipeline {
+
+struct VoxelEstimate {
+  double voxels = 0.0;
+  double blocks = 0.0;    ///< Of their index.
+  double clusters = 0.0;  ///< Those with voxels that touch each other.
+  double index_bytes = 0.0;
+
+  /// Voxels with a block to themselves: next to nothing, or nearly all where voxels are finer than the scan.
+  double lone() const;
+};
+
+/// The points of a cell fill what voxels a surface through it crosses. Within a tenth on towns of any density.
+VoxelEstimate estimate_voxels(const tiling::Survey& survey, const SupervoxelScale& scale);
+
+/// Peak of a run that writes labels only, without colours: tiles are cut as they would be if the voxels of a cell lay
+/// in its middle. To be asked when the survey is made: what is resident then, and was before, counts; free memory is
+/// given back, as it is before supervoxels grow.
+std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+                                         const SupervoxelParameters& parameters, const VoxelMemory& memory);
+
+/// What a SupervoxelScene and the table of its supervoxels keep in memory.
+std::uint64_t predicted_scene_bytes(const VoxelEstimate& estimate);
+
+/// The store of the voxels, without colours.
+std::uint64_t predicted_store_bytes(const tiling::Survey& survey, const SupervoxelScale& scale);
+/// Runs, store and normals of the voxels, without colours, for inputs whose neighbours in space are neighbours in the
+/// file.
+std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+                                         const VoxelMemory& memory);
+
+}  // namespace arris::pipeline

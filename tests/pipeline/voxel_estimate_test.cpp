@@ -1,0 +1,75 @@
+#include "pipeline/voxel_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "core/process_memory.h"
+
+namespace arris::pipeline {
+namespace {
+
+constexpr std::uint64_t kGiB = std::uint64_t{1} << 30;
+
+tiling::Survey survey_of(const std::vector<LatticePoint>& points) {
+  tiling::Survey survey;
+  survey.lattice = {0.001, {0.0, 0.0, 0.0}};
+  survey.points_in = points.size();
+  for (const LatticePoint& p : points) survey.bounds.include(p);
+  survey.add(points, std::vector<tiling::Mapped>(points.size(), tiling::Mapped::kOk));
+  survey.finish();
+  return survey;
+}
+
+/// A slanted square of 20 m with points every 2 cm.
+std::vector<LatticePoint> plane() {
+  std::vector<LatticePoint> points;
+  for (std::int32_t x = 0; x < 20'000; x += 20) {
+    for (std::int32_t y = 0; y < 20'000; y += 20) points.push_back({x, y, x / 3 + y / 5});
+  }
+  return points;
+}
+
+std::vector<LatticePoint> far_apart() {
+  std::mt19937 random(7);
+  const auto any = [&] { return static_cast<std::int32_t>(random() % 2'000'000'000) - 1'000'000'000; };
+  std::vector<LatticePoint> points;
+  for (int i = 0; i < 100'000; ++i) points.push_back({any(), any(), any()});
+  return points;
+}
+
+SupervoxelScale scale_of(std::int32_t voxel_steps) {
+  return make_scale(voxel_steps, 8 * std::int64_t{voxel_steps}, {});
+}
+
+TEST(VoxelEstimate, Plane_IsWithinAQuarterOfItsVoxelsAndHasNoLoneOnes) {
+  const VoxelEstimate estimate = estimate_voxels(survey_of(plane()), scale_of(50));
+  // A slanted square of this slope crosses about (1 + 1/3 + 1/5) voxels per voxel's face.
+  const double expected = 400.0 * 400.0 * (1.0 + 1.0 / 3.0 + 1.0 / 5.0);
+  EXPECT_NEAR(estimate.voxels / expected, 1.0, 0.25);
+  EXPECT_LT(estimate.blocks, estimate.voxels / 20.0);
+  EXPECT_EQ(estimate.lone(), 0.0);
+  EXPECT_LT(estimate.index_bytes, 5.0 * estimate.voxels);
+}
+
+TEST(VoxelEstimate, PointsFarApart_AreLoneVoxelsWithABlockEach) {
+  const VoxelEstimate estimate = estimate_voxels(survey_of(far_apart()), scale_of(50));
+  EXPECT_NEAR(estimate.voxels, 100'000.0, 1'000.0);
+  EXPECT_NEAR(estimate.lone(), 100'000.0, 2'000.0);
+  EXPECT_NEAR(estimate.index_bytes, 48.0 * 100'000.0, 100'000.0);
+}
+
+TEST(VoxelEstimate, SmallerBudget_ForetellsNoMoreThanTheBudget) {
+  const tiling::Survey survey = survey_of(plane());
+  const SupervoxelScale scale = scale_of(20);
+  const double voxels = estimate_voxels(survey, scale).voxels;
+  const std::uint64_t much = predicted_supervoxel_bytes(survey, scale, {}, VoxelMemory(4 * kGiB));
+  const std::uint64_t little = predicted_supervoxel_bytes(survey, scale, {}, VoxelMemory(kGiB / 4));
+  EXPECT_GT(static_cast<double>(much), 95.0 * voxels) << "all are in one tile";
+  EXPECT_LE(little, std::max(kGiB / 4, peak_resident_bytes())) << "what other tests took counts";
+}
+
+}  // namespace
+}  // namespace arris::pipeline
