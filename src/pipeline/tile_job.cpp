@@ -34,7 +34,8 @@ tiling::TilePlan plan_tiles_around_crowds(const tiling::Survey& survey, const ti
 /// tiles in flight are not all at their peak together. Measured (bench/README.md).
 std::uint64_t likely_peak_bytes(const TileJob& job) {
   constexpr double kProgramBytes = 40e6;  // All that stays where several tiles take the room of the survey in turn.
-  constexpr double kOfTile = 0.92;
+  constexpr double kThreadBytes = 6e6;    // Of every thread but the first: what is read ahead, a heap of its own.
+  constexpr double kOfTile = 0.95;
   constexpr double kGatherBytes =
       87e6;  // Results of a few million points, records and buffers while outputs are written.
   constexpr double kGatherPoints = 3e6;
@@ -49,10 +50,11 @@ std::uint64_t likely_peak_bytes(const TileJob& job) {
              static_cast<double>(job.memory.tile_bytes(points[i]));
   const double gather = kGatherBytes * std::min(1.0, static_cast<double>(job.survey.points()) / kGatherPoints);
   const auto held = static_cast<double>(job.memory_request.held_bytes);
+  const double threads = kThreadBytes * (job.memory_request.threads - 1);
   const double stays = points.size() > 1
                            ? std::min(kProgramBytes + held, static_cast<double>(job.memory.resident_bytes))
                            : static_cast<double>(std::max(job.memory.resident_bytes, arris::resident_bytes()));
-  const double peak = stays + static_cast<double>(job.memory_request.kept_bytes) + std::max(tiles, gather);
+  const double peak = stays + threads + static_cast<double>(job.memory_request.kept_bytes) + std::max(tiles, gather);
   return static_cast<std::uint64_t>(std::max(peak, kOfPeakSoFar * static_cast<double>(peak_resident_bytes())));
 }
 
