@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "features/numerics/merge_exchange.h"
 #include "features/numerics/simd.h"
 
 namespace arris {
@@ -24,15 +25,7 @@ struct RankNetwork {
 
   static constexpr Exchanges all() {
     Exchanges all;
-    for (std::size_t p = 1; p < N; p *= 2) {
-      for (std::size_t k = p; k >= 1; k /= 2) {
-        for (std::size_t j = k % p; j + k < N; j += 2 * k) {
-          for (std::size_t i = j; i < j + k && i + k < N; ++i) {
-            if (i / (2 * p) == (i + k) / (2 * p)) all.list[all.count++] = {i, i + k};
-          }
-        }
-      }
-    }
+    for_each_merge_exchange(N, [&all](std::size_t low, std::size_t high) { all.list[all.count++] = {low, high}; });
     return all;
   }
 
