@@ -24,6 +24,7 @@ constexpr std::uint64_t kSpareBytes = 4 * kMiB;
 
 VoxelMemory::VoxelMemory(std::uint64_t budget_bytes)
     : usable_bytes_(static_cast<std::uint64_t>(kSafety * static_cast<double>(budget_bytes))) {
+  release_free_memory();  // What reading has left differs from run to run.
   const std::uint64_t fixed = resident_bytes() + kVoxelPassBytes + kSurveyBytes;
   if (usable_bytes_ < fixed + kLeastTableBytes) {
     throw BudgetError(
