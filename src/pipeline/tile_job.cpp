@@ -99,8 +99,10 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, io::InputSet& inputs, c
                kTileFileLikelyBytes / static_cast<double>(std::max<std::size_t>(job.tiles.tiles.size(), 1)));
   const double most_stored = points * job.tiles.duplication;
   const double likely_stored = points * (1.0 + (job.tiles.duplication - 1.0) * needs.halo_fill);
-  // Files that go at once when their tile is analysed are there together only where several tiles are in flight.
-  const double beside_one = needs.whole_halo ? (job.memory.tile_workers - 1) * likely_stored * kTileFileLikelyBytes /
+  // Files that go at once when their tile is analysed are there together only where several tiles are in flight; often
+  // one more is written before one that was analysed goes.
+  const double together = job.memory.tile_workers > 1 ? job.memory.tile_workers - 0.5 : 0.0;
+  const double beside_one = needs.whole_halo ? together * likely_stored * kTileFileLikelyBytes /
                                                    static_cast<double>(std::max<std::size_t>(job.tiles.tiles.size(), 1))
                                              : 0.0;
   job.predicted_temp_bytes =
