@@ -16,6 +16,7 @@ class SpacingBatch {
  public:
   static constexpr std::size_t kNeighbours = 20;
   static constexpr std::size_t kCount = 64 / sizeof(Key);
+  static_assert(kNeighbours <= DistanceRow::kMostNeighbours);
 
   /// @param row  of query i, with at least kNeighbours neighbours.
   void set(std::size_t i, const DistanceRow::Keys<Key>& row) { rows_[i] = row; }
