@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "features/segment/median_plane.h"
-#include "features/segment/selection_network.h"
 
 namespace arris {
 namespace {
@@ -38,8 +37,6 @@ std::vector<std::array<std::uint8_t, 3>> spread_triples(std::size_t n) {
 }  // namespace
 
 MedianPlan::MedianPlan(std::size_t neighbours)
-    : triples(triples_of(neighbours) <= kMostTriples ? all_triples(neighbours) : spread_triples(neighbours)),
-      exchanges(selection_network(neighbours, neighbours / 2)),
-      median(neighbours / 2) {}
+    : triples(triples_of(neighbours) <= kMostTriples ? all_triples(neighbours) : spread_triples(neighbours)) {}
 
 }  // namespace arris

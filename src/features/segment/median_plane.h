@@ -3,13 +3,13 @@
 /// neighbourhood per lane.
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "features/numerics/simd.h"
+#include "features/segment/least_medians.h"
 #include "features/segment/neighbourhood_batch.h"
 
 namespace arris {
@@ -23,8 +23,6 @@ struct MedianPlan {
   explicit MedianPlan(std::size_t neighbours);
 
   std::vector<std::array<std::uint8_t, 3>> triples;
-  std::vector<std::array<std::uint8_t, 2>> exchanges;  ///< Bring the median to its place.
-  std::size_t median = 0;                              ///< Index of the upper median of n sorted values.
 };
 
 namespace detail {
@@ -42,6 +40,7 @@ constexpr float kLeastCross2 = 1e-4F;
 /// The plane through three points a, b and c.
 template <class F>
 struct TriplePlane {
+  TriplePlane() = default;
   ARRIS_ALWAYS_INLINE TriplePlane(const F& ax, const F& ay, const F& az, const F& bx, const F& by, const F& bz,
                                   const F& cx, const F& cy, const F& cz) {
     const F ux = bx - ax, uy = by - ay, uz = bz - az;
@@ -62,87 +61,63 @@ struct TriplePlane {
   F offset;
 };
 
-/// Least medians so far, one per lane. Most trials are no better than what came before, which counting shows; only
-/// those that are wait here, a column each, whatever lane they are of, until the columns are full and can be sorted.
-template <class F>
-class LeastMedians {
- public:
-  static constexpr std::size_t kLanes = sizeof(F) / sizeof(float);
-  using Bits = typename simd::Wide<sizeof(F)>::Int;
+/// Triples that are tried at a time.
+constexpr std::size_t kTogether = 2;
 
-  explicit LeastMedians(const MedianPlan& plan) : plan_(plan) {}
-
-  /// May be above the least so far, of trials that wait.
-  const F& least() const { return least_; }
-  const std::array<std::uint8_t, kLanes>& triple() const { return triple_; }
-
-  /// @param distances  of n points, as bits (not negative: they sort as their bits do); one vector each.
-  ARRIS_ALWAYS_INLINE void add(std::size_t triple, std::size_t lane, std::size_t n, const Bits* distances) {
-    for (std::size_t i = 0; i < n; ++i) columns_[i][waiting_] = distances[i][lane];
-    of_[waiting_++] = {static_cast<std::uint8_t>(triple), static_cast<std::uint8_t>(lane)};
-    if (waiting_ == kLanes) settle();
-  }
-  ARRIS_ALWAYS_INLINE void settle() {
-    for (const auto& [i, j] : plan_.exchanges) {
-      const Bits a = simd::load<Bits>(columns_[i]), b = simd::load<Bits>(columns_[j]);
-      simd::store(columns_[i], a < b ? a : b);
-      simd::store(columns_[j], a < b ? b : a);
-    }
-    for (std::size_t column = 0; column < waiting_; ++column) {
-      const auto [triple, lane] = of_[column];
-      const float median = std::bit_cast<float>(columns_[plan_.median][column]);
-      if (!(median < least_[lane])) continue;  // The first of equals stays: triples have a fixed order.
-      least_[lane] = median;
-      triple_[lane] = triple;
-    }
-    waiting_ = 0;
-  }
-
- private:
-  struct Origin {
-    std::uint8_t triple, lane;
-  };
-  const MedianPlan& plan_;
-  F least_ = F{} + 1e30F;
-  std::array<std::uint8_t, kLanes> triple_{};
-  std::size_t waiting_ = 0;
-  std::array<Origin, kLanes> of_;
-  alignas(F) std::int32_t columns_[kMostNeighbours][kLanes] = {};
+/// Neighbours relative to the query, in units of the mean distance, one vector each; `distances` for median_plane().
+template <class F, std::size_t N>
+struct MedianPoints {
+  F x[N], y[N], z[N];
+  std::array<typename LeastMedians<F, N>::Rows, kTogether> distances;
 };
 
-/// @param x, y, z  neighbours relative to the query, in units of the mean distance; one vector each.
-template <class F>
-ARRIS_ALWAYS_INLINE MedianPlane<F> median_plane(const MedianPlan& plan, std::size_t n, const F* x, const F* y,
-                                                const F* z) {
-  using Bits = typename LeastMedians<F>::Bits;
+/// @param n  3 to N.
+template <class F, std::size_t N>
+ARRIS_ALWAYS_INLINE MedianPlane<F> median_plane(const MedianPlan& plan, std::size_t n, MedianPoints<F, N>& points) {
+  using Medians = LeastMedians<F, N>;
+  using Bits = typename Medians::Bits;
   const F zero{};
-  LeastMedians<F> medians(plan);
-  Bits distances[kMostNeighbours];
-  for (std::size_t triple = 0; triple < plan.triples.size(); ++triple) {
-    const auto [a, b, c] = plan.triples[triple];
-    const TriplePlane<F> plane(x[a], y[a], z[a], x[b], y[b], z[b], x[c], y[c], z[c]);
-    // A median is below a limit if more values than come before it are.
-    const F limit = plane.norm2 > kLeastCross2 ? medians.least() : zero;
-    Bits below{};
-    for (std::size_t i = 0; i < n; ++i) {
-      const F d = plane.nx * x[i] + plane.ny * y[i] + plane.nz * z[i] - plane.offset;
-      distances[i] = (Bits)d & 0x7fffffff;
-      below = distances[i] < (Bits)limit ? below + 1 : below;  // Neither is negative.
+  const auto& [x, y, z, distances] = points;
+  Medians medians(n);
+  for (auto& rows : points.distances) medians.pad(rows);
+  const Bits middle = Bits{} + static_cast<std::int32_t>(n / 2);
+  for (std::size_t begin = 0; begin < plan.triples.size(); begin += kTogether) {
+    // Several at a time, because each point is loaded but once then. (The last one again is no better than itself.)
+    std::array<TriplePlane<F>, kTogether> planes;
+    std::array<Bits, kTogether> limits, below{};
+    ARRIS_UNROLL
+    for (std::size_t k = 0; k < kTogether; ++k) {
+      const auto [a, b, c] = plan.triples[std::min(begin + k, plan.triples.size() - 1)];
+      planes[k] = TriplePlane<F>(x[a], y[a], z[a], x[b], y[b], z[b], x[c], y[c], z[c]);
+      // A median is below a limit if more values than come before it are.
+      limits[k] = (Bits)(planes[k].norm2 > kLeastCross2 ? medians.least() : zero);
     }
-    for (std::size_t lane = 0; lane < LeastMedians<F>::kLanes; ++lane)
-      if (below[lane] > static_cast<std::int32_t>(plan.median)) medians.add(triple, lane, n, distances);
+    for (std::size_t i = 0; i < n; ++i) {
+      ARRIS_UNROLL
+      for (std::size_t k = 0; k < kTogether; ++k) {
+        const TriplePlane<F>& plane = planes[k];
+        const F d = plane.nx * x[i] + plane.ny * y[i] + plane.nz * z[i] - plane.offset;
+        const Bits distance = (Bits)d & 0x7fffffff;
+        points.distances[k][medians.first() + i] = distance;
+        below[k] = distance < limits[k] ? below[k] + 1 : below[k];  // Neither is negative.
+      }
+    }
+    for (std::size_t k = 0; k < kTogether; ++k)
+      medians.add(static_cast<std::int32_t>(begin + k), middle - below[k], points.distances[k]);
   }
   medians.settle();
   F ax, ay, az, bx, by, bz, cx, cy, cz;
-  for (std::size_t lane = 0; lane < LeastMedians<F>::kLanes; ++lane) {
-    const auto [a, b, c] = plan.triples[medians.triple()[lane]];
+  for (std::size_t lane = 0; lane < Medians::kLanes; ++lane) {
+    const auto [a, b, c] = plan.triples[medians.trial(lane)];
     ax[lane] = x[a][lane], ay[lane] = y[a][lane], az[lane] = z[a][lane];
     bx[lane] = x[b][lane], by[lane] = y[b][lane], bz[lane] = z[b][lane];
     cx[lane] = x[c][lane], cy[lane] = y[c][lane], cz[lane] = z[c][lane];
   }
   const TriplePlane<F> plane(ax, ay, az, bx, by, bz, cx, cy, cz);
   const F least = medians.least();
-  const auto found = [&](const F& value) { return least < 1e30F ? value : zero; };
+  const auto found = [&](const F& value) __attribute__((always_inline)) {
+    return least < 1e30F ? value : zero;
+  };
   return {found(plane.nx), found(plane.ny), found(plane.nz), found(ax), found(ay), found(az), least};
 }
 

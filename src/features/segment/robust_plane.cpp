@@ -57,19 +57,30 @@ struct MedianStarts {
 struct MedianPlanes {
   template <int Bytes>
   static ARRIS_ALWAYS_INLINE void run(const NeighbourhoodBatch& batch, const MedianPlan& plan, MedianStarts& starts) {
+    static_assert(kMostNeighbours == 64);
+    if (batch.neighbours <= 8) return run_up_to<8, Bytes>(batch, plan, starts);
+    if (batch.neighbours <= 16) return run_up_to<16, Bytes>(batch, plan, starts);
+    if (batch.neighbours <= 32) return run_up_to<32, Bytes>(batch, plan, starts);
+    run_up_to<64, Bytes>(batch, plan, starts);
+  }
+
+ private:
+  template <std::size_t N, int Bytes>
+  static ARRIS_ALWAYS_INLINE void run_up_to(const NeighbourhoodBatch& batch, const MedianPlan& plan,
+                                            MedianStarts& starts) {
     using F = typename simd::Wide<Bytes>::Float;
     constexpr std::size_t kLanes = Bytes / sizeof(float);
-    F x[kMostNeighbours], y[kMostNeighbours], z[kMostNeighbours];
+    detail::MedianPoints<F, N> points;
     for (std::size_t lane = 0; lane < kBatchLanes; lane += kLanes) {
       for (std::size_t i = 0; i < batch.neighbours; ++i) {
         for (std::size_t k = 0; k < kLanes; ++k) {
           const double unit = 1.0 / batch.mean_distance[lane + k];
-          x[i][k] = static_cast<float>(batch.x[i][lane + k] * unit);
-          y[i][k] = static_cast<float>(batch.y[i][lane + k] * unit);
-          z[i][k] = static_cast<float>(batch.z[i][lane + k] * unit);
+          points.x[i][k] = static_cast<float>(batch.x[i][lane + k] * unit);
+          points.y[i][k] = static_cast<float>(batch.y[i][lane + k] * unit);
+          points.z[i][k] = static_cast<float>(batch.z[i][lane + k] * unit);
         }
       }
-      const detail::MedianPlane<F> plane = detail::median_plane<F>(plan, batch.neighbours, x, y, z);
+      const detail::MedianPlane<F> plane = detail::median_plane<F, N>(plan, batch.neighbours, points);
       for (std::size_t k = 0; k < kLanes; ++k) {
         const double unit = batch.mean_distance[lane + k];
         starts.nx[lane + k] = plane.nx[k];
