@@ -30,7 +30,7 @@ TEST(NeighbourRows, DifferencesUpToTheBorderOf16Bits_AreRead) {
     NeighbourRows rows(kSlots, 3);
     Rows expected(kSlots);
     expected[kSlot] = {kSlot + 1, kSlot + static_cast<std::uint32_t>(difference)};
-    NeighbourRows::Writer(rows).put(kSlot, expected[kSlot]);
+    NeighbourRows::Writer(rows).put(kSlot, 2, [&](std::size_t i) { return expected[kSlot][i]; });
     expect_equal(rows, expected);
   }
 }
@@ -52,7 +52,9 @@ TEST(NeighbourRows, ManyWriters_EachRowIsWhatWasPut) {
     parallel_for_chunks(kSlots, 1000, [&](std::size_t first, std::size_t last) {
       NeighbourRows::Writer writer(rows);
       for (std::size_t slot = first; slot < last; ++slot)
-        if (!expected[slot].empty()) writer.put(static_cast<std::uint32_t>(slot), expected[slot]);
+        if (!expected[slot].empty())
+          writer.put(static_cast<std::uint32_t>(slot), expected[slot].size(),
+                     [&](std::size_t i) { return expected[slot][i]; });
     });
     expect_equal(rows, expected);
   }

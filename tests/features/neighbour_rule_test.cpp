@@ -10,15 +10,15 @@ namespace arris {
 namespace {
 
 /// Eight neighbours on a square grid around the query, `along` and `across` steps apart.
-Neighbours grid(double along, double across) {
-  Neighbours found;
-  found.reserve(kFewestNeighbours);
+PackedNeighbours grid(double along, double across) {
+  PackedNeighbours found;
+  found.narrow = false;
+  found.wide.reserve(kFewestNeighbours);
   for (int i = -1; i <= 1; ++i) {
     for (int j = -1; j <= 1; ++j) {
       if (i == 0 && j == 0) continue;
-      found.dx[found.count] = i * along;
-      found.dy[found.count] = j * across;
-      found.d2[found.count] = i * i * along * along + j * j * across * across;
+      found.wide.dx[found.count] = i * along;
+      found.wide.dy[found.count] = j * across;
       ++found.count;
     }
   }

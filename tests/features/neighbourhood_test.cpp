@@ -15,6 +15,7 @@
 #include "features/neighbourhood/local_spacing.h"
 #include "features/neighbourhood/nearest_select.h"
 #include "features/neighbourhood/outer_box.h"
+#include "features/neighbourhood/packed_neighbours.h"
 #include "features/neighbourhood/spacing_batch.h"
 #include "random_clouds.h"
 
@@ -142,9 +143,12 @@ TYPED_TEST(Kernels, Nearest_AgreeWithSortingAll) {
     const ClosedBox all{{-2000, -2000, -2000}, {4000, 4000, 4000}};
     ASSERT_TRUE(candidates.gather(tree, all, 0.0));
     ASSERT_EQ(candidates.count, tree.size());
+    candidates.pack();
     NearestScratch<TypeParam> scratch;
     Neighbours found;
     found.reserve(200);
+    PackedNeighbours packed;
+    packed.reserve(200);
     for (std::size_t slot = 0; slot < tree.size(); slot += 37) {
       const LatticePoint at = tree.position(slot);
       std::vector<std::pair<std::uint64_t, std::uint64_t>> sorted;
@@ -179,6 +183,14 @@ TYPED_TEST(Kernels, Nearest_AgreeWithSortingAll) {
             }
             if (expected > 0) {
               EXPECT_EQ(found.last_d2, sorted[expected - 1].first);
+            }
+            select_nearest(tree, candidates, query, scratch, packed);
+            ASSERT_EQ(packed.count, found.count);
+            ASSERT_EQ(packed.last_d2, found.last_d2);
+            for (std::size_t i = 0; i < expected; ++i) {
+              ASSERT_EQ(packed.slot(i), found.slot[i]);
+              const auto [x, y, z] = packed.offset(i);
+              ASSERT_TRUE(x == found.dx[i] && y == found.dy[i] && z == found.dz[i]);
             }
           }
         }
@@ -255,6 +267,7 @@ TYPED_TEST(Kernels, SpacingBatch_GivesTheSpacingOfTheNeighbours) {
     const LatticePoint middle = tree.position(450);
     CandidateSet<TypeParam> candidates;
     ASSERT_TRUE(candidates.gather(tree, {{middle.x, middle.y, middle.z}, {middle.x, middle.y, middle.z}}, 1500.0));
+    candidates.pack();
     NearestScratch<TypeParam> scratch;
     Neighbours neighbours;
     neighbours.reserve(kNeighbours);

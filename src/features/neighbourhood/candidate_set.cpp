@@ -164,6 +164,14 @@ void CandidateSet<T>::multiply() {
   if constexpr (std::is_same_v<T, float>) products.make(x, y, z, count, farthest);
 }
 
+template <class T>
+void CandidateSet<T>::pack() {
+  if constexpr (std::is_same_v<T, float>) {
+    if (packed.size() < count) packed.resize(x.size());
+    for (std::size_t i = 0; i < count; ++i) packed[i] = {x[i], y[i], z[i], slot[i]};
+  }
+}
+
 template struct CandidateSet<float>;
 template struct CandidateSet<double>;
 template struct CandidateSet<std::int64_t>;

@@ -1,129 +1,26 @@
 #include "features/neighbourhood/nearest_select.h"
 
-#include <algorithm>
-#include <limits>
 #include <type_traits>
 
+#include "features/neighbourhood/distance_ranks.h"
 #include "features/neighbourhood/nearest_candidates.h"
+#include "features/neighbourhood/nearest_rows.h"
+#include "features/neighbourhood/nearest_sorted.h"
 
 namespace arris {
-namespace {
-
-/// A key is a squared distance followed by the place in the list, so that no two are equal.
-constexpr int kPlaceBits = 7;
-/// More than this many do not fit a key; about there a comparison sort begins to beat counting.
-constexpr std::size_t kMostRanked = std::size_t{1} << kPlaceBits;
-static_assert(kExactSquares<float> * kMostRanked <= 2147483648.0 && kExactSquares<double> * kMostRanked <= 9.2e18);
-
-/// rank[i] = how many of the n <= kMostRanked values are smaller than values[i], or equal and further in front.
-struct CountSmaller {
-  template <int Bytes, class T>
-  static ARRIS_ALWAYS_INLINE void run(const T* values, std::size_t n, std::int32_t* rank) {
-    using V = typename simd::VectorOf<T, Bytes>::Type;
-    using Keys = typename simd::VectorOf<T, Bytes>::Mask;
-    using Key = std::conditional_t<std::is_same_v<T, float>, std::int32_t, std::int64_t>;
-    constexpr std::size_t kLanes = simd::VectorOf<T, Bytes>::kLanes;
-    alignas(64) Key keys[kMostRanked];
-    Keys place;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) place[lane] = static_cast<Key>(lane);
-    for (std::size_t block = 0; block < n; block += kLanes) {
-      simd::store(keys + block, (__builtin_convertvector(simd::load<V>(values + block), Keys) << kPlaceBits) + place);
-      place += static_cast<Key>(kLanes);
-    }
-    for (std::size_t block = 0; block < n; block += kLanes) {
-      const auto mine = simd::load<Keys>(keys + block);
-      Keys smaller{};
-      for (std::size_t j = 0; j < n; ++j) smaller -= (mine > keys[j]);
-      for (std::size_t lane = 0; lane < kLanes; ++lane) rank[block + lane] = static_cast<std::int32_t>(smaller[lane]);
-    }
-  }
-};
-
-template <class T>
-void sort_by_rank(NearestScratch<T>& s, std::size_t n) {
-  const T* values = s.d2.data();
-  for (std::size_t i = n; i < simd::padded(n); ++i) s.d2[i] = T{0};  // Ranked too, but nobody asks for it.
-  simd::dispatch<CountSmaller>(values, n, s.rank.data());
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto place = static_cast<std::size_t>(s.rank[i]);
-    s.sorted[place] = s.candidate[i];
-    s.sorted_d2[place] = s.d2[i];
-  }
-}
-
-/// Whether any of the first `wanted` is as far as the one after it.
-template <class T>
-bool has_ties(const NearestScratch<T>& s, std::size_t n, std::size_t wanted) {
-  int ties = 0;
-  for (std::size_t i = 0; i < std::min(wanted, n - 1); ++i) ties |= s.sorted_d2[i] == s.sorted_d2[i + 1];
-  return ties != 0;
-}
-
-template <class T>
-void sort_by_comparison(NearestScratch<T>& s, std::size_t n, std::size_t wanted) {
-  auto& pairs = s.pairs;
-  pairs.resize(n);
-  for (std::size_t i = 0; i < n; ++i) pairs[i] = {s.d2[i], s.candidate[i]};
-  if (wanted < n) {
-    // Everything that ties with the last one wanted must stay in.
-    std::nth_element(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(wanted - 1), pairs.end());
-    const T last = pairs[wanted - 1].first;
-    const auto cut = std::partition(pairs.begin() + static_cast<std::ptrdiff_t>(wanted), pairs.end(),
-                                    [last](const auto& pair) { return pair.first == last; });
-    pairs.erase(cut, pairs.end());
-  }
-  std::sort(pairs.begin(), pairs.end());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    s.sorted_d2[i] = pairs[i].first;
-    s.sorted[i] = pairs[i].second;
-  }
-  for (std::size_t i = pairs.size(); i < n; ++i) s.sorted_d2[i] = std::numeric_limits<T>::max();
-}
-
-/// Puts runs of equal distances that begin before `wanted` into the order of ids.
-template <class T>
-void order_ties(const PointTree& tree, const CandidateSet<T>& candidates, NearestScratch<T>& s, std::size_t n,
-                std::size_t wanted) {
-  for (std::size_t begin = 0; begin < wanted;) {
-    std::size_t end = begin + 1;
-    while (end < n && s.sorted_d2[end] == s.sorted_d2[begin]) ++end;
-    if (end - begin > 1) {
-      std::sort(
-          s.sorted.begin() + static_cast<std::ptrdiff_t>(begin), s.sorted.begin() + static_cast<std::ptrdiff_t>(end),
-          [&](std::uint32_t a, std::uint32_t b) { return tree.id(candidates.slot[a]) < tree.id(candidates.slot[b]); });
-    }
-    begin = end;
-  }
-}
-
-}  // namespace
 
 template <class T>
 void select_nearest(const PointTree& tree, const CandidateSet<T>& candidates, const NearestQuery<T>& query,
                     NearestScratch<T>& scratch, Neighbours& found) {
   const std::size_t n = collect_nearest(candidates, query, scratch).count;
-  const std::size_t wanted = std::min(n, query.k + 1);  // With the query itself, which comes first.
-  if constexpr (std::is_same_v<T, std::int64_t>) {
-    sort_by_comparison(scratch, n, wanted);
-  } else if (n <= kMostRanked) {
-    sort_by_rank(scratch, n);
-  } else {
-    sort_by_comparison(scratch, n, wanted);
+  if constexpr (std::is_same_v<T, float>) {
+    if (n <= kMostRanked) {
+      found.count = rank_rows(tree, candidates, query, n, scratch, scratch.rows.data());
+      part_rows(scratch.rows.data(), found);
+      return;
+    }
   }
-  if (has_ties(scratch, n, wanted)) order_ties(tree, candidates, scratch, n, wanted);
-  found.count = wanted - 1;
-  for (std::size_t i = 0; i < found.count; ++i) {
-    const std::uint32_t c = scratch.sorted[i + 1];
-    found.dx[i] = static_cast<double>(candidates.x[c] - query.x);
-    found.dy[i] = static_cast<double>(candidates.y[c] - query.y);
-    found.dz[i] = static_cast<double>(candidates.z[c] - query.z);
-    found.d2[i] = static_cast<double>(scratch.sorted_d2[i + 1]);
-    found.slot[i] = candidates.slot[c];
-  }
-  for (std::size_t i = found.count; i < simd::padded(found.count); ++i) {
-    found.dx[i] = found.dy[i] = found.dz[i] = found.d2[i] = 0.0;
-  }
-  found.last_d2 = found.count > 0 ? static_cast<std::uint64_t>(scratch.sorted_d2[found.count]) : 0;
+  select_sorted(tree, candidates, query, n, scratch, found);
 }
 
 template void select_nearest(const PointTree&, const CandidateSet<float>&, const NearestQuery<float>&,

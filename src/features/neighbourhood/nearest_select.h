@@ -13,6 +13,8 @@ namespace arris {
 
 /// Neighbours of one point in canonical order: (exact squared distance, global id). The point itself is not among them.
 struct Neighbours {
+  static constexpr bool kOfPacked = true;  ///< Found among candidates that are packed.
+
   std::size_t count = 0;
   std::vector<double> dx, dy, dz;   ///< Position minus the query's, steps, exact; padded with zeros.
   std::vector<double> d2;           ///< Squared distances, steps² (rounded above 2^53).
@@ -21,7 +23,7 @@ struct Neighbours {
 
   void reserve(std::size_t k) {
     for (auto* column : {&dx, &dy, &dz, &d2}) column->resize(simd::padded(k) + simd::kPadding);
-    slot.resize(k);
+    slot.resize(simd::padded(k) + simd::kPadding);
   }
   double last_d2_guess() const { return static_cast<double>(last_d2); }
 };
@@ -44,6 +46,7 @@ struct NearestScratch {
   std::vector<std::uint32_t> sorted;
   std::vector<T> sorted_d2;
   std::vector<std::pair<T, std::uint32_t>> pairs;
+  std::vector<PackedCandidate> rows;
 
   void make_room(std::size_t candidates) {
     const std::size_t room = simd::padded(candidates) + simd::kPadding;
@@ -51,11 +54,12 @@ struct NearestScratch {
     for (auto* column : {&d2, &sorted_d2}) column->resize(room);
     for (auto* column : {&candidate, &sorted}) column->resize(room);
     rank.resize(room);
+    rows.resize(room);
   }
 };
 
-/// The query itself is one of the candidates. Fills min(k, those within max_d2) neighbours; ties are resolved by id.
-/// Complexity: O(candidates + s²/16), s being the number within the guess.
+/// The query itself is one of the candidates, which are packed. Fills min(k, those within max_d2) neighbours; ties are
+/// resolved by id. Complexity: O(candidates + s²/16), s being the number within the guess.
 template <class T>
 void select_nearest(const PointTree& tree, const CandidateSet<T>& candidates, const NearestQuery<T>& query,
                     NearestScratch<T>& scratch, Neighbours& found);

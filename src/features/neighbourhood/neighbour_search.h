@@ -101,6 +101,7 @@ class NearestSearch {
   bool try_at(Workspace<T>& work, std::span<const std::uint32_t> slots, double reach, Use& use) {
     if ((reach + 1.0) * (reach + 1.0) >= kExactSquares<T>) return false;
     if (!work.candidates.gather(tree_, box_of(slots), reach)) return false;
+    if constexpr (Found::kOfPacked) work.candidates.pack();
     work.guess_d2 = squared_limit<T>(reach / kReachMargin, limits_.max_d2);
     for (const std::uint32_t slot : slots) {
       if (find(work, slot, reach)) {

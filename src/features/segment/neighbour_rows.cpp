@@ -1,7 +1,5 @@
 #include "features/segment/neighbour_rows.h"
 
-#include <algorithm>
-
 namespace arris {
 
 NeighbourRows::NeighbourRows(std::size_t slots, std::size_t most)
@@ -24,21 +22,12 @@ void NeighbourRows::return_sheet(const Sheet& sheet) {
   open_.push_back(sheet);
 }
 
-void NeighbourRows::Writer::put(std::uint32_t slot, std::span<const std::uint32_t> neighbours) {
-  std::int16_t* const row = rows_.near_.data() + std::size_t{slot} * rows_.most_;
-  bool far = false;
-  for (std::size_t i = 0; i < neighbours.size(); ++i) {
-    const auto difference = static_cast<std::int32_t>(neighbours[i] - slot);
-    row[i] = static_cast<std::int16_t>(difference);
-    far |= row[i] != difference;
-  }
-  rows_.counts_[slot] = static_cast<std::uint8_t>(neighbours.size());
-  if (!far) return;
+std::uint32_t* NeighbourRows::Writer::far_row(std::uint32_t slot) {
   if (sheet_.rows == nullptr || sheet_.used == kSheetRows) sheet_ = rows_.take_sheet();
-  std::copy(neighbours.begin(), neighbours.end(), sheet_.rows + std::size_t{sheet_.used} * rows_.most_);
-  const std::uint32_t at = sheet_.number * kSheetRows + sheet_.used++;
-  std::memcpy(row, &at, sizeof(at));
+  const std::uint32_t at = sheet_.number * kSheetRows + sheet_.used;
+  std::memcpy(rows_.near_.data() + std::size_t{slot} * rows_.most_, &at, sizeof(at));
   rows_.counts_[slot] |= kFar;
+  return sheet_.rows + std::size_t{sheet_.used++} * rows_.most_;
 }
 
 }  // namespace arris

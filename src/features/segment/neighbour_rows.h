@@ -8,7 +8,6 @@
 #include <cstring>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <vector>
 
 #include "core/pages.h"
@@ -101,10 +100,26 @@ class NeighbourRows::Writer {
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  /// Once per slot. @param neighbours  most() at most.
-  void put(std::uint32_t slot, std::span<const std::uint32_t> neighbours);
+  /// Once per slot. @param slot_of(i)  of the i-th of `count` neighbours, most() at most.
+  template <class SlotOf>
+  void put(std::uint32_t slot, std::size_t count, const SlotOf& slot_of) {
+    std::int16_t* const row = rows_.near_.data() + std::size_t{slot} * rows_.most_;
+    bool far = false;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto difference = static_cast<std::int32_t>(slot_of(i) - slot);
+      row[i] = static_cast<std::int16_t>(difference);
+      far |= row[i] != difference;
+    }
+    rows_.counts_[slot] = static_cast<std::uint8_t>(count);
+    if (!far) return;
+    std::uint32_t* const written_out = far_row(slot);
+    for (std::size_t i = 0; i < count; ++i) written_out[i] = slot_of(i);
+  }
 
  private:
+  /// Where a row is written out; says so in the row.
+  std::uint32_t* far_row(std::uint32_t slot);
+
   NeighbourRows& rows_;
   Sheet sheet_;
 };

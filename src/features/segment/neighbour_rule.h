@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "features/neighbourhood/nearest_select.h"
+#include "features/neighbourhood/packed_neighbours.h"
 
 namespace arris {
 
@@ -30,10 +30,12 @@ class NeighbourRule {
   std::size_t least() const { return least_; }
   std::size_t most() const { return most_; }
   /// @param found  at least least().
-  std::size_t wanted(const Neighbours& found) const { return least_ == most_ ? least_ : wanted_by_spacing(found); }
+  std::size_t wanted(const PackedNeighbours& found) const {
+    return least_ == most_ ? least_ : wanted_by_spacing(found);
+  }
 
  private:
-  std::size_t wanted_by_spacing(const Neighbours& found) const;
+  std::size_t wanted_by_spacing(const PackedNeighbours& found) const;
 
   std::size_t least_, most_;
   double noise2_ = 0.0;  ///< steps^2.

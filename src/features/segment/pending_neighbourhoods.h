@@ -1,17 +1,16 @@
 #pragma once
-/// @file Neighbourhoods of equal size one after the other, until there are enough to lay them side by side.
+/// @file Neighbourhoods one after the other, until there are enough to lay them side by side.
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
-#include "features/neighbourhood/nearest_select.h"
+#include "features/neighbourhood/packed_neighbours.h"
 #include "features/segment/neighbourhood_batch.h"
 
 namespace arris {
 
-/// Each is written in one piece: to spread its coordinates over the rows of a batch at once would touch a line of cache
-/// for every one of them. 512 bytes per neighbour, rounded up to multiples of 16.
+/// Each is kept as it was found, in one piece: to spread its coordinates over the rows of a batch at once would touch a
+/// line of cache for every one of them. 32 KiB of which it uses what it needs.
 class PendingNeighbourhoods {
  public:
   explicit PendingNeighbourhoods(std::size_t neighbours);
@@ -20,29 +19,22 @@ class PendingNeighbourhoods {
   bool full() const { return lanes_ == kBatchLanes; }
   std::uint32_t slot(std::size_t lane) const { return slot_[lane]; }
 
-  /// The nearest of those found, as many as the constructor was told.
-  void add(std::uint32_t slot, const Neighbours& found);
-  /// The same neighbourhood again.
-  void add(const PendingNeighbourhoods& from, std::size_t lane);
+  /// The nearest of those found, as many as the constructor was told. Leaves other memory for as many in `found`.
+  void add(std::uint32_t slot, PackedNeighbours& found);
+  /// A neighbourhood from elsewhere, which is not there any more then.
+  void add(PendingNeighbourhoods& from, std::size_t lane) { add(from.slot_[lane], from.found_[lane]); }
   /// All of them, with their mean distances: the distances are summed up from the nearest to the farthest.
-  void lay_out(NeighbourhoodBatch& batch) const;
+  void lay_out(NeighbourhoodBatch& batch);
   void clear() { lanes_ = 0; }
 
  private:
-  enum Column : std::size_t { kX, kY, kZ, kSquare, kColumns };
-  double* row(std::size_t column, std::size_t lane) {
-    return rows_.data() + (column * kBatchLanes + lane) * padded_neighbours_;
-  }
-  const double* row(std::size_t column, std::size_t lane) const {
-    return rows_.data() + (column * kBatchLanes + lane) * padded_neighbours_;
-  }
-  struct LayOut;
+  struct LayOutRows;
+  struct LayOutColumns;
 
   std::size_t neighbours_;
-  std::size_t padded_neighbours_;
   std::size_t lanes_ = 0;
   std::array<std::uint32_t, kBatchLanes> slot_{};
-  std::vector<double> rows_;  ///< By column, then lane, then neighbour. Lanes not in use are finite.
+  std::array<PackedNeighbours, kBatchLanes> found_;  ///< Lanes not in use are finite.
 };
 
 }  // namespace arris

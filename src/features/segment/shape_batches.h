@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "features/neighbourhood/nearest_select.h"
+#include "features/neighbourhood/packed_neighbours.h"
 #include "features/segment/median_plane.h"
 #include "features/segment/pending_neighbourhoods.h"
 #include "features/segment/robust_plane.h"
@@ -22,9 +22,9 @@ class ShapeBatches {
   explicit ShapeBatches(const PlaneWeights& weights) : weights_(weights) {}
 
   /// Calls use(slot, shape, has normal) once for every slot, now or later, at the latest in flush().
-  /// @param count  of the nearest of those found, 3 to kMostNeighbours.
+  /// @param found  leaves other memory there. @param count  of the nearest of those found, 3 to kMostNeighbours.
   template <class Use>
-  void add(std::uint32_t slot, const Neighbours& found, std::size_t count, Use&& use) {
+  void add(std::uint32_t slot, PackedNeighbours& found, std::size_t count, Use&& use) {
     Size& size = size_of(count);
     size.plain.add(slot, found);
     if (size.plain.full()) fit_plain(size, use);

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "features/neighbourhood/neighbour_search.h"
+#include "features/neighbourhood/packed_neighbours.h"
 #include "features/segment/shape_batches.h"
 
 namespace arris {
@@ -38,12 +40,14 @@ class TileNeighbourhoods::Runner {
   }
 
  private:
+  using Search = NearestSearch<PackedNeighbours>;
+
   void search_for(std::size_t k, std::span<const std::uint32_t> slots) {
     if (slots.empty()) return;
     if (!searches_[k]) {
-      searches_[k] = std::make_unique<NeighbourSearch>(all_.tree_, all_.limits(k));
+      searches_[k] = std::make_unique<Search>(all_.tree_, all_.limits(k));
     }
-    searches_[k]->run(slots, [&](std::uint32_t slot, const Neighbours& found) {
+    searches_[k]->run(slots, [&](std::uint32_t slot, PackedNeighbours& found) {
       const std::size_t least = all_.rule_.least();
       const std::size_t wanted = found.count < least ? all_.rule_.most() : all_.rule_.wanted(found);
       expected_ = std::max(expected_, std::min(wanted, k));
@@ -55,8 +59,12 @@ class TileNeighbourhoods::Runner {
       }
     });
   }
-  void take(std::uint32_t slot, const Neighbours& found, std::size_t count) {
-    rows_.put(slot, std::span(found.slot).first(count));
+  void take(std::uint32_t slot, PackedNeighbours& found, std::size_t count) {
+    if (found.narrow) {
+      rows_.put(slot, count, [rows = found.rows.data() + 1](std::size_t i) { return rows[i].slot; });
+    } else {
+      rows_.put(slot, count, [&found](std::size_t i) { return found.wide.slot[i]; });
+    }
     if (count < kLeastNeighbours) {
       all_.states_[slot] = ShapeState::kIsolated;
     } else {
@@ -71,7 +79,7 @@ class TileNeighbourhoods::Runner {
   TileNeighbourhoods& all_;
   NeighbourRows::Writer rows_;
   /// By the number of neighbours that they look for.
-  std::array<std::unique_ptr<NeighbourSearch>, kMostNeighbours + 1> searches_;
+  std::array<std::unique_ptr<Search>, kMostNeighbours + 1> searches_;
   std::array<std::vector<std::uint32_t>, kMostNeighbours + 1> more_;
   std::size_t expected_;
   ShapeBatches batches_;
