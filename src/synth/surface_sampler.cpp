@@ -1,13 +1,13 @@
 #include "synth/surface_sampler.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "core/error.h"
+#include "synth/scene_measure.h"
 
 namespace arris::synth {
 
@@ -16,23 +16,11 @@ namespace {
 constexpr double kJitter = 0.3;  // In cells, to either side.
 constexpr double kScanLineFactor =
     2.0;  // Distance of scan lines in spacings; along a line points are 1/2 spacing apart.
-constexpr double kSparsestFactor = 3.1622776601683795;  // Spacing at the sparse end of a gradient: density 10:1.
 // With 6 candidates per cell of one spacing squared, discs of this radius leave one point per cell (measured).
 constexpr int kDiscCandidates = 6;
 constexpr double kDiscDistance = 0.724;  // In spacings.
 constexpr double kOutlierMargin = 0.1;   // Of the longest side of the scene.
 constexpr double kMostPoints = 1e15;
-
-/// Share of the full density at a place `t` in [0, 1] along the gradient: the local spacing grows linearly.
-double gradient_share(double t) {
-  const double factor = 1.0 + (kSparsestFactor - 1.0) * std::clamp(t, 0.0, 1.0);
-  return 1.0 / (factor * factor);
-}
-
-double gradient_share_at(const Box3& bounds, const Vec3& position) {
-  const double length = bounds.max.x - bounds.min.x;
-  return gradient_share(length > 0.0 ? (position.x - bounds.min.x) / length : 0.0);
-}
 
 std::uint64_t cells(double length, double pitch) {
   const double count = std::floor(length / pitch + 0.5);
@@ -53,50 +41,6 @@ int poisson_1(double uniform) {
   return k;
 }
 
-/// Mean share of the density over the face, by the midpoint rule on a fixed raster.
-double mean_share(const Face& face, const Box3& bounds, Sampling sampling) {
-  if (sampling != Sampling::kGradient) return 1.0;
-  constexpr int kSteps = 64;
-  double sum = 0.0;
-  int owned = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    for (int j = 0; j < kSteps; ++j) {
-      const double a = (i + 0.5) / kSteps, b = (j + 0.5) / kSteps;
-      Vec3 position = face.at(a * face.size_u, b * face.size_v);
-      if (face.shape == Face::Shape::kSphere) {
-        if ((2.0 * b - 1.0) * face.radius < face.cap_height) continue;
-        position = on_sphere(face, a, (2.0 * b - 1.0) * face.radius);
-      } else if (face.shape == Face::Shape::kCylinder) {
-        const SinCos angle = sin_cos_turns(a * face.sweep_turns);
-        position = face.origin + face.radius * angle.cos * face.eu + face.radius * angle.sin * face.ev;
-      } else if (face.shape == Face::Shape::kPlane && !face.owns(a * face.size_u, b * face.size_v)) {
-        continue;
-      }
-      sum += gradient_share_at(bounds, position);
-      ++owned;
-    }
-  }
-  return owned > 0 ? sum / owned : 1.0;
-}
-
-/// True if points are counted per spacing³.
-bool is_volume(const SceneModel& model) {
-  return !model.faces.empty() && model.faces.front().shape == Face::Shape::kVolume &&
-         model.faces.front().returns == 0.0;
-}
-
-/// What the number of points is proportional to.
-double counted_measure(const Face& face) {
-  return face.returns > 0.0 ? face.measure() * (face.returns / face.size_w) : face.measure();
-}
-
-double weighted_measure(const SceneModel& model, Sampling sampling) {
-  const Box3 bounds = model.bounds();
-  double sum = 0.0;
-  for (const Face& face : model.faces) sum += counted_measure(face) * mean_share(face, bounds, sampling);
-  return sum;
-}
-
 }  // namespace
 
 double SurfaceSampler::spacing_for(const SceneModel& model, Sampling sampling, std::uint64_t points) {
@@ -107,9 +51,10 @@ double SurfaceSampler::spacing_for(const SceneModel& model, Sampling sampling, s
 SurfaceSampler::SurfaceSampler(const SceneModel& model, const SurfaceSampling& sampling)
     : model_(model), sampling_(sampling), bounds_(model.bounds()) {
   const Vec3 size = bounds_.max - bounds_.min;
-  outlier_box_ = bounds_.expanded(model.spray_reach > 0.0 ? model.spray_reach
-                                                          : kOutlierMargin * std::max({size.x, size.y, size.z}));
-  sampling_.outliers = std::max(sampling_.outliers, model.spray_share);
+  finish_ = {sampling.noise, std::max(sampling.outliers, model.spray_share),
+             bounds_.expanded(model.spray_reach > 0.0 ? model.spray_reach
+                                                      : kOutlierMargin * std::max({size.x, size.y, size.z})),
+             model.intensity_noise};
   const double s = sampling.spacing;
   const double weighted = weighted_measure(model, sampling.sampling);
   expected_points_ = is_volume(model) ? weighted / (s * s * s) : weighted / (s * s);
@@ -276,34 +221,7 @@ void SurfaceSampler::place(const Face& face, const CellRow& row, std::uint64_t c
     position = position + w * face.ew;
   }
   if (sampling_.sampling == Sampling::kGradient && random.uniform() >= gradient_share_at(bounds_, position)) return;
-  finish(face, row, position, random, out);
-}
-
-void SurfaceSampler::finish(const Face& face, const CellRow& row, Vec3 position, PointRandom& random,
-                            std::vector<io::FreshPoint>& out) const {
-  io::FreshPoint point;
-  const bool outlier = sampling_.outliers > 0.0 && random.uniform() < sampling_.outliers;
-  if (outlier) {
-    const Vec3 size = outlier_box_.max - outlier_box_.min;
-    position = outlier_box_.min + Vec3{random.uniform() * size.x, random.uniform() * size.y, random.uniform() * size.z};
-  } else if (sampling_.noise > 0.0) {
-    position = position + sampling_.noise * Vec3{random.normal(), random.normal(), random.normal()};
-  }
-  point.x = position.x;
-  point.y = position.y;
-  point.z = position.z;
-  double reflectance = face.material.reflectance;
-  if (model_.intensity_noise > 0.0) {
-    reflectance = std::clamp(reflectance * (1.0 + model_.intensity_noise * random.normal()), 0.0, 1.0);
-  }
-  point.intensity = static_cast<std::uint16_t>(65535.0 * reflectance);
-  point.classification = outlier ? std::uint8_t{7} : face.material.classification;
-  point.point_source_id = outlier ? std::uint16_t{0} : row.face_number;
-  point.label = outlier ? 0 : face.surface;
-  point.red = face.material.red;
-  point.green = face.material.green;
-  point.blue = face.material.blue;
-  out.push_back(point);
+  out.push_back(finished_point(finish_, face, row.face_number, position, random));
 }
 
 }  // namespace arris::synth

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "synth/counter_random.h"
+#include "synth/point_finish.h"
 #include "synth/point_units.h"
 #include "synth/poisson_disc.h"
 #include "synth/scene_model.h"
@@ -49,12 +50,11 @@ class SurfaceSampler final : public PointUnits {
                      std::vector<io::FreshPoint>& out) const;
   void place(const Face& face, const CellRow& row, std::uint64_t column, PointRandom random,
              std::vector<io::FreshPoint>& out) const;
-  void finish(const Face& face, const CellRow& row, Vec3 position, PointRandom& random,
-              std::vector<io::FreshPoint>& out) const;
 
   const SceneModel& model_;
   SurfaceSampling sampling_;
-  Box3 bounds_, outlier_box_;
+  Box3 bounds_;
+  PointFinish finish_;
   std::vector<Raster> rasters_;
   std::uint64_t rows_ = 0;
   std::size_t unit_points_ = 1;
