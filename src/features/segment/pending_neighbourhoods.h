@@ -10,7 +10,7 @@
 namespace arris {
 
 /// Each is kept as it was found, in one piece: to spread its coordinates over the rows of a batch at once would touch a
-/// line of cache for every one of them. 32 KiB of which it uses what it needs.
+/// line of cache for every one of them. About 37 kB, of which it uses what it needs.
 class PendingNeighbourhoods {
  public:
   explicit PendingNeighbourhoods(std::size_t neighbours);

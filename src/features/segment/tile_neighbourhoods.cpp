@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "features/neighbourhood/neighbour_search.h"
 #include "features/neighbourhood/packed_neighbours.h"
+#include "features/neighbourhood/runner_pool.h"
 #include "features/segment/shape_batches.h"
 
 namespace arris {
@@ -21,7 +22,7 @@ constexpr double kRoundedUp = 1.0 + 1e-12;
 
 }  // namespace
 
-/// One per chunk of buckets; writes the rows of its own slots only.
+/// One per thread; writes the rows of its own slots only.
 class TileNeighbourhoods::Runner {
  public:
   explicit Runner(TileNeighbourhoods& all)
@@ -97,8 +98,7 @@ TileNeighbourhoods::TileNeighbourhoods(const PointTree& tree, const Lattice& lat
       states_(tree.size(), ShapeState::kUnasked) {}
 
 void TileNeighbourhoods::compute(std::span<const std::uint8_t> wanted) {
-  parallel_for_chunks(tree_.buckets(), kChunkBuckets, [&](std::size_t first, std::size_t last) {
-    Runner runner(*this);
+  const auto run_buckets = [&](Runner& runner, std::size_t first, std::size_t last) {
     std::vector<std::uint32_t> slots;
     for (std::size_t bucket = first; bucket < last; ++bucket) {
       slots.clear();
@@ -108,8 +108,12 @@ void TileNeighbourhoods::compute(std::span<const std::uint8_t> wanted) {
       }
       runner.run(slots);
     }
-    runner.finish();
+  };
+  RunnerPool<Runner> pool;
+  parallel_for_chunks(tree_.buckets(), kChunkBuckets, [&](std::size_t first, std::size_t last) {
+    pool.with_one([this] { return Runner(*this); }, [&](Runner& runner) { run_buckets(runner, first, last); });
   });
+  for (auto& runner : pool.idle()) runner->finish();
 }
 
 SearchLimits TileNeighbourhoods::limits(std::size_t k) const {
