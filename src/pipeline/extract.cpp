@@ -156,11 +156,8 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     release_free_memory();
   }
   gather_points(inputs, request, plan.method, results, writers, report, sink, cancel);
-  commit_writers(writers, inputs, sink);
+  commit_writers(request, writers, inputs, report, sink);
   watch.lap("write");
-
-  hash_inputs(request, report);
-  if (request.hash_inputs) watch.lap("hash");
   report.cpu_seconds = process_cpu_seconds() - cpu_before;
   report.peak_resident_bytes = peak_resident_bytes();
   return report;

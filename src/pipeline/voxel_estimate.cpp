@@ -156,12 +156,12 @@ std::uint64_t predicted_scene_bytes(const VoxelEstimate& estimate) {
 
 std::uint64_t predicted_store_bytes(const tiling::Survey& survey, const SupervoxelScale& scale) {
   const auto each = static_cast<double>(tiling::VoxelLayout(VoxelGrid(scale.voxel_steps), false).bytes());
-  return static_cast<std::uint64_t>(each * estimate_voxels(survey, scale).voxels);
+  return static_cast<std::uint64_t>(each * count_of_cubes(survey.counts, scale.voxel_steps));
 }
 
 std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
                                          const VoxelMemory& memory) {
-  const double voxels = estimate_voxels(survey, scale).voxels;
+  const double voxels = count_of_cubes(survey.counts, scale.voxel_steps);
   const auto room = static_cast<double>(memory.table_bytes() + memory.index_bytes());
   const bool runs = voxels * kTableEntryBytes > static_cast<double>(memory.table_bytes());
   const bool tiles =
