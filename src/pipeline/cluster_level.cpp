@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/parallel.h"
 #include "features/supervoxel/cluster_growth.h"
 #include "features/supervoxel/leftover_voxels.h"
 #include "features/supervoxel/seed_cells.h"
@@ -12,6 +13,7 @@
 namespace arris::pipeline {
 namespace {
 
+constexpr std::size_t kGrain = 64 * 1024;
 constexpr double kClusterBytes = 260.0;
 constexpr double kClusterHistogramBytes = 400.0;
 
@@ -99,16 +101,20 @@ class Clustering {
                              [&](const OrphanVoxel& orphan) { return !lone_[orphan.rank]; });
       }
       table_.add_members(tile.voxels, tile.features, clusters_of);
-      for (std::size_t v = 0; v < clusters_of.size(); ++v) {
-        if (tile.voxels.core[v] != 0) level_.clusters_of[tile.voxels.ranks[v]] = clusters_of[v];
-      }
+      parallel_for_chunks(clusters_of.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+          if (tile.voxels.core[v] != 0) level_.clusters_of[tile.voxels.ranks[v]] = clusters_of[v];
+        }
+      });
     });
   }
 
   void move_seeds() {
     walk_.for_each(TileView::kCore, [&](const LoadedTile& tile) {
       PageVector<std::uint32_t> clusters_of(tile.voxels.size());
-      for (std::size_t v = 0; v < clusters_of.size(); ++v) clusters_of[v] = level_.clusters_of[tile.voxels.ranks[v]];
+      parallel_for_chunks(clusters_of.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) clusters_of[v] = level_.clusters_of[tile.voxels.ranks[v]];
+      });
       table_.offer_seeds(tile.voxels, clusters_of);
     });
     table_.move_seeds();

@@ -2,26 +2,34 @@
 
 #include <utility>
 
+#include "core/parallel.h"
 #include "features/supervoxel/cluster_distance.h"
 #include "features/supervoxel/seed_cells.h"
 
 namespace arris {
 namespace {
 
+constexpr std::size_t kGrain = 16 * 1024;
+
 template <class Distance>
 void attach(const VoxelTile& tile, const Distance& distance, std::span<std::uint32_t> clusters_of) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> attached;
-  for (std::uint32_t v = 0; v < tile.size(); ++v) {
-    if (clusters_of[v] != kNoCluster) continue;
-    std::pair<float, std::uint32_t> best{0.0F, kNoCluster};
-    for (const std::uint32_t u : tile.neighbours_of(v)) {
-      if (clusters_of[u] == kNoCluster || clusters_of[u] == best.second) continue;
-      const std::pair<float, std::uint32_t> offer{distance(v, clusters_of[u]), clusters_of[u]};
-      if (best.second == kNoCluster || offer < best) best = offer;
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> attached((tile.size() + kGrain - 1) / kGrain);
+  parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+      if (clusters_of[v] != kNoCluster) continue;
+      std::pair<float, std::uint32_t> best{0.0F, kNoCluster};
+      for (const std::uint32_t u : tile.neighbours_of(v)) {
+        if (clusters_of[u] == kNoCluster || clusters_of[u] == best.second) continue;
+        const std::pair<float, std::uint32_t> offer{distance(v, clusters_of[u]), clusters_of[u]};
+        if (best.second == kNoCluster || offer < best) best = offer;
+      }
+      if (best.second != kNoCluster) attached[begin / kGrain].emplace_back(v, best.second);
     }
-    if (best.second != kNoCluster) attached.emplace_back(v, best.second);
+  });
+  // Only now: no voxel is attached by way of another that was.
+  for (const auto& chunk : attached) {
+    for (const auto& [voxel, cluster] : chunk) clusters_of[voxel] = cluster;
   }
-  for (const auto& [voxel, cluster] : attached) clusters_of[voxel] = cluster;
 }
 
 /// Voxels come in ascending ranks, so the voxel that a group is found by has its smallest rank.
