@@ -53,7 +53,7 @@ class CubesOfCell {
 double count_of_cubes(const tiling::CellCounts& counts, std::int64_t side_steps) {
   const CubesOfCell cubes(counts.level(), side_steps);
   double sum = 0.0;
-  counts.for_each([&](const LatticeBox&, std::uint64_t points) { sum += cubes(points); });
+  counts.for_each_by_leaf([&](const LatticeBox&, std::uint64_t points) { sum += cubes(points); });
   return sum;
 }
 
@@ -69,7 +69,8 @@ double count_of_leftovers(const tiling::CellCounts& counts, const SupervoxelScal
                           const SupervoxelScale& scale) {
   const CubesOfCell before(counts.level(), finer.voxel_steps), cubes(counts.level(), scale.voxel_steps);
   double sum = 0.0;
-  counts.for_each([&](const LatticeBox&, std::uint64_t points) { sum += before.lonely(points) * cubes(points); });
+  counts.for_each_by_leaf(
+      [&](const LatticeBox&, std::uint64_t points) { sum += before.lonely(points) * cubes(points); });
   return sum;
 }
 
