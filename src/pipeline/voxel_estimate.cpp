@@ -107,10 +107,14 @@ double VoxelEstimate::lone() const {
   return std::clamp(2.0 * blocks - voxels, 0.0, voxels);
 }
 
+double likely_voxels(const tiling::Survey& survey, const SupervoxelScale& scale) {
+  return count_of_cubes(survey.counts, scale.voxel_steps);
+}
+
 VoxelEstimate estimate_voxels(const tiling::Survey& survey, const SupervoxelScale& scale) {
   VoxelEstimate estimate;
   const std::int64_t side = scale.voxel_steps;
-  estimate.voxels = count_of_cubes(survey.counts, side);
+  estimate.voxels = likely_voxels(survey, scale);
   estimate.blocks =
       std::min(estimate.voxels, count_of_large_cubes(survey.counts, tiling::VoxelIndex::kBlockSide * side));
   const double parts = std::clamp(count_of_large_cubes(survey.counts, tiling::VoxelIndex::kBlockSide * side / 2),
@@ -157,12 +161,12 @@ std::uint64_t predicted_scene_bytes(const VoxelEstimate& estimate) {
 
 std::uint64_t predicted_store_bytes(const tiling::Survey& survey, const SupervoxelScale& scale) {
   const auto each = static_cast<double>(tiling::VoxelLayout(VoxelGrid(scale.voxel_steps), false).bytes());
-  return static_cast<std::uint64_t>(each * count_of_cubes(survey.counts, scale.voxel_steps));
+  return static_cast<std::uint64_t>(each * likely_voxels(survey, scale));
 }
 
 std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
                                          const VoxelMemory& memory) {
-  const double voxels = count_of_cubes(survey.counts, scale.voxel_steps);
+  const double voxels = likely_voxels(survey, scale);
   const auto room = static_cast<double>(memory.table_bytes() + memory.index_bytes());
   const bool runs = voxels * kTableEntryBytes > static_cast<double>(memory.table_bytes());
   const bool tiles =

@@ -115,7 +115,7 @@ struct VoxelAccumulator::Impl {
         most_index_bytes(options.most_index_bytes),
         write_bytes(std::min(options.table_bytes / 16, kMostWriteBytes)),
         free_bytes(options.table_bytes - std::min(kFixedBytes + write_bytes, options.table_bytes / 2)),
-        table(std::in_place, of, free_bytes) {}
+        table(std::in_place, of, free_bytes, options.likely_voxels) {}
 
   std::unique_ptr<VoxelRun> new_run(bool colours) {
     return std::make_unique<VoxelRun>(folder / fmt::format("voxels-{}.run", runs_made++), colours, write_bytes);
