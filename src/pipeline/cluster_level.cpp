@@ -19,14 +19,15 @@ constexpr double kClusterHistogramBytes = 400.0;
 
 class Clustering {
  public:
-  Clustering(VoxelTileWalk& walk, ProgressSink& progress)
+  Clustering(VoxelTileWalk& walk, bool group_leftovers, ProgressSink& progress)
       : walk_(walk),
+        group_leftovers_(group_leftovers),
         parameters_(walk.request().parameters),
         scale_(walk.request().scale),
         progress_(progress),
         table_(parameters_) {}
 
-  ClusterLevel run(bool group_leftovers, std::uint64_t kept_bytes) {
+  ClusterLevel run(std::uint64_t kept_bytes) {
     const std::uint32_t voxels = walk_.store().size();
     level_.clusters_of.assign(voxels, kNoCluster);
     if (voxels == 0) return std::move(level_);
@@ -52,7 +53,7 @@ class Clustering {
     level_.seed_ranks = table_.clusters().seed_ranks;
     level_.predicted_bytes = walk_.predicted_bytes();
     number_lone();
-    if (group_leftovers) number_groups();
+    if (group_leftovers_) number_groups();
     return std::move(level_);
   }
 
@@ -95,10 +96,8 @@ class Clustering {
       PageVector<std::uint32_t> clusters_of =
           grow_clusters(tile.voxels, tile.features, table_.clusters(), seeds, parameters_, scale_);
       if (last) {
-        const std::vector<OrphanVoxel> orphans =
-            settle_leftovers(tile.voxels, tile.features, table_.clusters(), parameters_, scale_, clusters_of);
-        std::ranges::copy_if(orphans, std::back_inserter(orphans_),
-                             [&](const OrphanVoxel& orphan) { return !lone_[orphan.rank]; });
+        attach_leftovers(tile.voxels, tile.features, table_.clusters(), parameters_, scale_, clusters_of);
+        if (group_leftovers_) keep_orphans(group_orphans(tile.voxels, scale_, clusters_of));
       }
       table_.add_members(tile.voxels, tile.features, clusters_of);
       parallel_for_chunks(clusters_of.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -107,6 +106,11 @@ class Clustering {
         }
       });
     });
+  }
+
+  void keep_orphans(const std::vector<OrphanVoxel>& orphans) {
+    std::ranges::copy_if(orphans, std::back_inserter(orphans_),
+                         [&](const OrphanVoxel& orphan) { return !lone_[orphan.rank]; });
   }
 
   void move_seeds() {
@@ -143,6 +147,7 @@ class Clustering {
   }
 
   VoxelTileWalk& walk_;
+  bool group_leftovers_;  ///< Or leave them to coarser voxels.
   const SupervoxelParameters& parameters_;
   const SupervoxelScale& scale_;
   ProgressSink& progress_;
@@ -166,7 +171,7 @@ double likely_clusters(double voxels, const SupervoxelScale& scale) {
 
 ClusterLevel cluster_level(VoxelTileWalk& walk, bool group_leftovers, std::uint64_t kept_bytes,
                            ProgressSink& progress) {
-  return Clustering(walk, progress).run(group_leftovers, kept_bytes);
+  return Clustering(walk, group_leftovers, progress).run(kept_bytes);
 }
 
 }  // namespace arris::pipeline

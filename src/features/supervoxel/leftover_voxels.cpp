@@ -32,6 +32,19 @@ void attach(const VoxelTile& tile, const Distance& distance, std::span<std::uint
   }
 }
 
+}  // namespace
+
+void attach_leftovers(const VoxelTile& tile, const VoxelFeatures& features, const Clusters& clusters,
+                      const SupervoxelParameters& parameters, const SupervoxelScale& scale,
+                      std::span<std::uint32_t> clusters_of) {
+  const ClusterDistanceData data{tile, features, clusters};
+  if (parameters.features == SupervoxelParameters::Features::kFpfh) {
+    attach(tile, HistogramDistance(data, parameters, scale), clusters_of);
+  } else {
+    attach(tile, NormalDistance(data, parameters, scale), clusters_of);
+  }
+}
+
 /// Voxels come in ascending ranks, so the voxel that a group is found by has its smallest rank.
 std::vector<OrphanVoxel> group_orphans(const VoxelTile& tile, const SupervoxelScale& scale,
                                        std::span<const std::uint32_t> clusters_of) {
@@ -59,20 +72,6 @@ std::vector<OrphanVoxel> group_orphans(const VoxelTile& tile, const SupervoxelSc
     if (tile.core[v] != 0) orphans.push_back({tile.ranks[v], tile.ranks[root[v]]});
   }
   return orphans;
-}
-
-}  // namespace
-
-std::vector<OrphanVoxel> settle_leftovers(const VoxelTile& tile, const VoxelFeatures& features,
-                                          const Clusters& clusters, const SupervoxelParameters& parameters,
-                                          const SupervoxelScale& scale, std::span<std::uint32_t> clusters_of) {
-  const ClusterDistanceData data{tile, features, clusters};
-  if (parameters.features == SupervoxelParameters::Features::kFpfh) {
-    attach(tile, HistogramDistance(data, parameters, scale), clusters_of);
-  } else {
-    attach(tile, NormalDistance(data, parameters, scale), clusters_of);
-  }
-  return group_orphans(tile, scale, clusters_of);
 }
 
 }  // namespace arris
