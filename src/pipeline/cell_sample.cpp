@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "tiling/mapped_pass.h"
 
 namespace arris::pipeline {
 namespace {
+
+constexpr std::size_t kGrain = 8 * 1024;
 
 /// splitmix64 of the cell's place.
 std::uint64_t hash_of(std::int64_t x, std::int64_t y, std::int64_t z) {
@@ -18,6 +21,29 @@ std::uint64_t hash_of(std::int64_t x, std::int64_t y, std::int64_t z) {
     h ^= h >> 31;
   }
   return h;
+}
+
+struct DrawnPoint {
+  LatticePoint place;
+  std::size_t index;
+};
+
+/// Of the points [begin, end) of a batch.
+void find_drawn(const CellSample& sample, const tiling::MappedPoints& points, std::size_t begin, std::size_t end,
+                std::vector<DrawnPoint>& drawn) {
+  drawn.clear();
+  LatticePoint last;
+  bool known = false, draws = false;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (points.outcome[i] != tiling::Mapped::kOk) continue;
+    const LatticePoint place = sample.place_of(points.positions[i]);
+    if (!known || place != last) {
+      draws = sample.draws(place);
+      last = place;
+      known = true;
+    }
+    if (draws) drawn.push_back({place, i});
+  }
 }
 
 int shift_of(const tiling::Survey& survey, double side_spacings) {
@@ -46,14 +72,16 @@ LatticeBox CellSample::box_of(const LatticePoint& place) const {
   return box;
 }
 
-void CellSample::add(const LatticePoint& p, std::uint64_t id) {
-  const LatticePoint place = place_of(p);
-  if (place != last_place_) {
+bool CellSample::draws(const LatticePoint& place) const {
+  return (hash_of(place.x, place.y, place.z) >> 32) <= limit_;
+}
+
+void CellSample::add(const LatticePoint& place, const LatticePoint& p, std::uint64_t id) {
+  if (last_ == nullptr || place != last_place_) {
     last_place_ = place;
-    const bool drawn = (hash_of(place.x, place.y, place.z) >> 32) <= limit_;
-    last_ = drawn ? &cells_[place] : nullptr;
+    last_ = &cells_[place];
   }
-  if (last_ == nullptr || last_->positions.size() > kMostCellPoints) return;
+  if (last_->positions.size() > kMostCellPoints) return;
   last_->positions.push_back(p);
   last_->ids.push_back(id);
 }
@@ -67,14 +95,20 @@ std::vector<CellSample::View> CellSample::cells() const {
 
 void draw_cells(io::InputSet& inputs, const tiling::Survey& survey, std::span<CellSample> samples,
                 ProgressSink& progress, const CancelToken& cancel) {
-  tiling::for_each_mapped_batch(inputs, survey.lattice, "noise", progress, cancel,
-                                [&](const tiling::MappedPoints& points) {
-                                  tiling::for_each_mapped_run(points.outcome, [&](std::size_t begin, std::size_t end) {
-                                    for (CellSample& sample : samples)
-                                      for (std::size_t i = begin; i < end; ++i)
-                                        sample.add(points.positions[i], points.batch.first_id + i);
-                                  });
-                                });
+  // Few points are drawn: all threads look for them, one adds them in order.
+  std::vector<std::vector<DrawnPoint>> drawn;
+  tiling::for_each_mapped_batch(
+      inputs, survey.lattice, "noise", progress, cancel, [&](const tiling::MappedPoints& points) {
+        drawn.resize((points.positions.size() + kGrain - 1) / kGrain);
+        for (CellSample& sample : samples) {
+          parallel_for_chunks(points.positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+            find_drawn(sample, points, begin, end, drawn[begin / kGrain]);
+          });
+          for (const std::vector<DrawnPoint>& chunk : drawn)
+            for (const DrawnPoint& point : chunk)
+              sample.add(point.place, points.positions[point.index], points.batch.first_id + point.index);
+        }
+      });
 }
 
 }  // namespace arris::pipeline

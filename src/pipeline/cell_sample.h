@@ -28,7 +28,10 @@ class CellSample {
   /// @param side_spacings  of a cell, rounded up to a power of two of steps. @param points  to be drawn, about.
   CellSample(const tiling::Survey& survey, double side_spacings, double points);
 
-  void add(const LatticePoint& p, std::uint64_t id);
+  bool draws(const LatticePoint& place) const;
+  LatticePoint place_of(const LatticePoint& p) const;
+  /// A point of a place that is drawn; in ascending order of ids.
+  void add(const LatticePoint& place, const LatticePoint& p, std::uint64_t id);
   struct View {
     LatticeBox box;
     const Cell* points;
@@ -41,14 +44,13 @@ class CellSample {
   static constexpr std::size_t kMostCellPoints = 200'000;
 
   std::int64_t offset() const { return (std::int64_t{1} << shift_) * 3 / 8; }
-  LatticePoint place_of(const LatticePoint& p) const;
   LatticeBox box_of(const LatticePoint& place) const;
 
   int shift_;
   std::uint64_t limit_;
   std::map<LatticePoint, Cell> cells_;
-  LatticePoint last_place_{INT32_MIN, 0, 0};
-  Cell* last_ = nullptr;  ///< None: not drawn.
+  LatticePoint last_place_;
+  Cell* last_ = nullptr;
 };
 
 /// Reads the inputs once for all of the samples.

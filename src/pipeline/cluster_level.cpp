@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/parallel.h"
 #include "features/supervoxel/cluster_growth.h"
 #include "features/supervoxel/leftover_voxels.h"
 #include "features/supervoxel/seed_cells.h"
@@ -12,19 +13,21 @@
 namespace arris::pipeline {
 namespace {
 
+constexpr std::size_t kGrain = 64 * 1024;
 constexpr double kClusterBytes = 260.0;
 constexpr double kClusterHistogramBytes = 400.0;
 
 class Clustering {
  public:
-  Clustering(VoxelTileWalk& walk, ProgressSink& progress)
+  Clustering(VoxelTileWalk& walk, bool group_leftovers, ProgressSink& progress)
       : walk_(walk),
+        group_leftovers_(group_leftovers),
         parameters_(walk.request().parameters),
         scale_(walk.request().scale),
         progress_(progress),
         table_(parameters_) {}
 
-  ClusterLevel run(bool group_leftovers, std::uint64_t kept_bytes) {
+  ClusterLevel run(std::uint64_t kept_bytes) {
     const std::uint32_t voxels = walk_.store().size();
     level_.clusters_of.assign(voxels, kNoCluster);
     if (voxels == 0) return std::move(level_);
@@ -50,7 +53,7 @@ class Clustering {
     level_.seed_ranks = table_.clusters().seed_ranks;
     level_.predicted_bytes = walk_.predicted_bytes();
     number_lone();
-    if (group_leftovers) number_groups();
+    if (group_leftovers_) number_groups();
     return std::move(level_);
   }
 
@@ -93,22 +96,29 @@ class Clustering {
       PageVector<std::uint32_t> clusters_of =
           grow_clusters(tile.voxels, tile.features, table_.clusters(), seeds, parameters_, scale_);
       if (last) {
-        const std::vector<OrphanVoxel> orphans =
-            settle_leftovers(tile.voxels, tile.features, table_.clusters(), parameters_, scale_, clusters_of);
-        std::ranges::copy_if(orphans, std::back_inserter(orphans_),
-                             [&](const OrphanVoxel& orphan) { return !lone_[orphan.rank]; });
+        attach_leftovers(tile.voxels, tile.features, table_.clusters(), parameters_, scale_, clusters_of);
+        if (group_leftovers_) keep_orphans(group_orphans(tile.voxels, scale_, clusters_of));
       }
       table_.add_members(tile.voxels, tile.features, clusters_of);
-      for (std::size_t v = 0; v < clusters_of.size(); ++v) {
-        if (tile.voxels.core[v] != 0) level_.clusters_of[tile.voxels.ranks[v]] = clusters_of[v];
-      }
+      parallel_for_chunks(clusters_of.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+          if (tile.voxels.core[v] != 0) level_.clusters_of[tile.voxels.ranks[v]] = clusters_of[v];
+        }
+      });
     });
+  }
+
+  void keep_orphans(const std::vector<OrphanVoxel>& orphans) {
+    std::ranges::copy_if(orphans, std::back_inserter(orphans_),
+                         [&](const OrphanVoxel& orphan) { return !lone_[orphan.rank]; });
   }
 
   void move_seeds() {
     walk_.for_each(TileView::kCore, [&](const LoadedTile& tile) {
       PageVector<std::uint32_t> clusters_of(tile.voxels.size());
-      for (std::size_t v = 0; v < clusters_of.size(); ++v) clusters_of[v] = level_.clusters_of[tile.voxels.ranks[v]];
+      parallel_for_chunks(clusters_of.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) clusters_of[v] = level_.clusters_of[tile.voxels.ranks[v]];
+      });
       table_.offer_seeds(tile.voxels, clusters_of);
     });
     table_.move_seeds();
@@ -137,6 +147,7 @@ class Clustering {
   }
 
   VoxelTileWalk& walk_;
+  bool group_leftovers_;  ///< Or leave them to coarser voxels.
   const SupervoxelParameters& parameters_;
   const SupervoxelScale& scale_;
   ProgressSink& progress_;
@@ -160,7 +171,7 @@ double likely_clusters(double voxels, const SupervoxelScale& scale) {
 
 ClusterLevel cluster_level(VoxelTileWalk& walk, bool group_leftovers, std::uint64_t kept_bytes,
                            ProgressSink& progress) {
-  return Clustering(walk, progress).run(group_leftovers, kept_bytes);
+  return Clustering(walk, group_leftovers, progress).run(kept_bytes);
 }
 
 }  // namespace arris::pipeline

@@ -1,9 +1,11 @@
 #include "pipeline/coarser_voxels.h"
 
 #include <algorithm>
+#include <mutex>
 #include <string>
 #include <vector>
 
+#include "core/parallel.h"
 #include "features/supervoxel/clusters.h"
 #include "tiling/voxel_accumulator.h"
 
@@ -12,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kLeastTableBytes = 1024 * 1024;
 constexpr std::uint64_t kMostTableBytes = 64 * 1024 * 1024;
-constexpr std::size_t kBatchPoints = 4 * 1024;
+constexpr std::size_t kGrainStretches = 2;
 
 /// The lattice point that the centroid of a voxel lies on or just above.
 LatticePoint centroid_point(const VoxelGrid& grid, const Voxel& voxel) {
@@ -23,16 +25,33 @@ LatticePoint centroid_point(const VoxelGrid& grid, const Voxel& voxel) {
   return {along(0), along(1), along(2)};
 }
 
-/// Calls use(voxel, rank) for the voxels without cluster in the cores of all tiles.
+/// Voxels without cluster, and their ranks.
+struct Leftovers {
+  std::vector<Voxel> voxels;
+  std::vector<std::uint32_t> ranks;
+};
+
+/// Calls use(leftovers of a stretch of ranks) for the cores of all tiles, in no order and several at a time.
 template <class Use>
-void for_each_leftover(const tiling::VoxelStore& store, const tiling::TilePlan& tiles,
-                       std::span<const std::uint32_t> clusters_of, const CancelToken& cancel, Use&& use) {
+void for_each_leftovers(const tiling::VoxelStore& store, const tiling::TilePlan& tiles,
+                        std::span<const std::uint32_t> clusters_of, const CancelToken& cancel, Use&& use) {
   for (const tiling::PlannedTile& tile : tiles.tiles) {
     cancel.check();
-    store.for_each_stretch(tile.core, [&](std::span<const Voxel> voxels, std::uint32_t rank) {
-      for (const Voxel& voxel : voxels) {
-        if (clusters_of[rank] == kNoCluster && tile.core.contains(voxel.key)) use(voxel, rank);
-        ++rank;
+    const std::vector<tiling::RankRange> stretches = store.stretches(tile.core);
+    parallel_for_chunks(stretches.size(), kGrainStretches, [&](std::size_t begin, std::size_t end) {
+      std::vector<Voxel> read;
+      Leftovers found;
+      for (const tiling::RankRange& stretch : std::span(stretches).subspan(begin, end - begin)) {
+        store.read(stretch.begin, stretch.end, read);
+        found.voxels.clear();
+        found.ranks.clear();
+        for (std::uint32_t rank = stretch.begin; rank < stretch.end; ++rank) {
+          const Voxel& voxel = read[rank - stretch.begin];
+          if (clusters_of[rank] != kNoCluster || !tile.core.contains(voxel.key)) continue;
+          found.voxels.push_back(voxel);
+          found.ranks.push_back(rank);
+        }
+        use(found);
       }
     });
   }
@@ -58,29 +77,30 @@ tiling::VoxelStore coarser_voxels(const tiling::VoxelStore& store, const tiling:
   const std::uint64_t table_bytes = std::clamp(memory_bytes / 4, kLeastTableBytes, kMostTableBytes);
   const std::uint64_t index_bytes = memory_bytes > table_bytes ? memory_bytes - table_bytes : 0;
   tiling::VoxelAccumulator accumulator(VoxelGrid(side_steps), {own_folder, table_bytes, index_bytes});
-  std::vector<LatticePoint> points;
-  std::vector<RawColour> point_colours;
-  const auto add = [&] {
+  std::mutex mutex;  // Of the accumulator, which takes points in any order.
+  for_each_leftovers(store, tiles, clusters_of, cancel, [&](const Leftovers& found) {
+    std::vector<LatticePoint> points;
+    std::vector<RawColour> point_colours;
+    points.reserve(found.voxels.size());
+    for (const Voxel& voxel : found.voxels) {
+      points.push_back(centroid_point(store.grid(), voxel));
+      if (colours) point_colours.push_back(voxel.colour);
+    }
+    const std::lock_guard lock(mutex);
     accumulator.add(points, point_colours);
-    points.clear();
-    point_colours.clear();
-  };
-  for_each_leftover(store, tiles, clusters_of, cancel, [&](const Voxel& voxel, std::uint32_t) {
-    points.push_back(centroid_point(store.grid(), voxel));
-    if (colours) point_colours.push_back(voxel.colour);
-    if (points.size() == kBatchPoints) add();
   });
-  add();
   return accumulator.finish();
 }
 
 void inherit_clusters(const tiling::VoxelStore& store, const tiling::TilePlan& tiles, const tiling::VoxelStore& coarse,
                       std::span<const std::uint32_t> coarse_clusters, std::uint32_t first,
                       std::span<std::uint32_t> clusters_of, const CancelToken& cancel) {
-  std::uint32_t hint = 0;
-  for_each_leftover(store, tiles, clusters_of, cancel, [&](const Voxel& voxel, std::uint32_t rank) {
-    const LatticePoint key = coarse.grid().voxel_of(centroid_point(store.grid(), voxel));
-    clusters_of[rank] = first + coarse_clusters[coarse.index().rank(key, hint)];
+  for_each_leftovers(store, tiles, clusters_of, cancel, [&](const Leftovers& found) {
+    std::uint32_t hint = 0;
+    for (std::size_t i = 0; i < found.voxels.size(); ++i) {
+      const LatticePoint key = coarse.grid().voxel_of(centroid_point(store.grid(), found.voxels[i]));
+      clusters_of[found.ranks[i]] = first + coarse_clusters[coarse.index().rank(key, hint)];
+    }
   });
 }
 

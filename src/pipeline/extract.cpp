@@ -25,6 +25,8 @@
 namespace arris::pipeline {
 namespace {
 
+constexpr std::size_t kLabelGrain = 8 * 1024;
+
 /// Supervoxels of the scan, as the method zheng asks for them.
 struct LabelledScene {
   SupervoxelScene scene;
@@ -50,9 +52,11 @@ std::unique_ptr<const LabelledScene> label_scene(io::InputSet& inputs, const Job
 }
 
 TileContours extract_labelled(const TilePoints& points, const JobPlan& plan, const LabelledScene& labelled) {
-  VoxelLabels label_of = labelled.scene.labels();
   std::vector<std::uint32_t> labels(points.positions.size());
-  for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = label_of.at(points.positions[i]);
+  parallel_for_chunks(labels.size(), kLabelGrain, [&](std::size_t begin, std::size_t end) {
+    VoxelLabels label_of = labelled.scene.labels();  // Remembers where it was: one per chunk.
+    for (std::size_t i = begin; i < end; ++i) labels[i] = label_of.at(points.positions[i]);
+  });
   return extract_zheng(points, labels, labelled.table, plan.survey.lattice, plan.method.zheng);
 }
 
@@ -156,11 +160,8 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
     release_free_memory();
   }
   gather_points(inputs, request, plan.method, results, writers, report, sink, cancel);
-  commit_writers(writers, inputs, sink);
+  commit_writers(request, writers, inputs, report, sink);
   watch.lap("write");
-
-  hash_inputs(request, report);
-  if (request.hash_inputs) watch.lap("hash");
   report.cpu_seconds = process_cpu_seconds() - cpu_before;
   report.peak_resident_bytes = peak_resident_bytes();
   return report;

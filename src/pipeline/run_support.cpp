@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/text.h"
 #include "pipeline/content_hash.h"
 #include "pipeline/run_folder.h"
@@ -117,17 +118,24 @@ Writers open_writers(const RunRequest& request, const io::InputSet& inputs, cons
   return writers;
 }
 
-void commit_writers(const Writers& writers, const io::InputSet& inputs, ProgressSink& progress) {
+void commit_writers(const RunRequest& request, const Writers& writers, const io::InputSet& inputs, RunReport& report,
+                    ProgressSink& progress) {
   inputs.check_unchanged();
+  const auto hash_inputs = [&] {
+    if (!request.hash_inputs) return;
+    for (InputReport& input : report.inputs) input.hash = content_hash(input.path);
+  };
+  BackgroundTasks hashing(1);
+  if (loop_threads() > 1) hashing.run(hash_inputs);
   for (const auto& writer : writers) {
     writer->commit();
     for (const std::string& warning : writer->warnings()) progress.warning("not-carried", warning);
   }
-}
-
-void hash_inputs(const RunRequest& request, RunReport& report) {
-  if (!request.hash_inputs) return;
-  for (InputReport& input : report.inputs) input.hash = content_hash(input.path);
+  if (loop_threads() > 1) {
+    hashing.wait();
+  } else {
+    hash_inputs();
+  }
 }
 
 }  // namespace arris::pipeline

@@ -72,10 +72,9 @@ using Writers = std::vector<std::unique_ptr<io::KeptPointWriter>>;
 /// One writer per output, named in the report. @param every_point  all points of the inputs will be written.
 Writers open_writers(const RunRequest& request, const io::InputSet& inputs, const std::vector<ColumnSpec>& columns,
                      bool every_point, RunReport& report);
-/// Makes the outputs appear, if the inputs are still what they were; forwards what the writers could not carry.
-void commit_writers(const Writers& writers, const io::InputSet& inputs, ProgressSink& progress);
-
-/// Hashes of the inputs, if asked for.
-void hash_inputs(const RunRequest& request, RunReport& report);
+/// Makes the outputs appear, if the inputs are still what they were; forwards what the writers could not carry. Puts
+/// hashes of the inputs into the report, if asked for: they are computed while the disk takes the outputs in.
+void commit_writers(const RunRequest& request, const Writers& writers, const io::InputSet& inputs, RunReport& report,
+                    ProgressSink& progress);
 
 }  // namespace arris::pipeline

@@ -156,9 +156,8 @@ SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, con
   if (!request.table.empty()) write_segments(request.table, rows, request.overwrite);
   if (!request.outlines.empty())
     write_outlines(request.outlines, request.overwrite, inputs, outlines, segments, rows, lattice);
-  commit_writers(writers, inputs, sink);
+  commit_writers(request, writers, inputs, report, sink);
   watch.lap("write");
-  hash_inputs(request, report);
   report.cpu_seconds = process_cpu_seconds() - cpu_before;
   report.peak_resident_bytes = peak_resident_bytes();
   return report;

@@ -119,9 +119,8 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
   }
   if (!request.adjacency.empty()) write_adjacency(request.adjacency, clusters.adjacency, request.overwrite);
   report.points_out = write_labels(inputs, pass, writers);
-  commit_writers(writers, inputs, sink);
+  commit_writers(request, writers, inputs, report, sink);
   watch.lap("write");
-  hash_inputs(request, report);
   report.cpu_seconds = process_cpu_seconds() - cpu_before;
   report.peak_resident_bytes = peak_resident_bytes();
   return report;

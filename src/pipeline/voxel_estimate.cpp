@@ -53,7 +53,7 @@ class CubesOfCell {
 double count_of_cubes(const tiling::CellCounts& counts, std::int64_t side_steps) {
   const CubesOfCell cubes(counts.level(), side_steps);
   double sum = 0.0;
-  counts.for_each([&](const LatticeBox&, std::uint64_t points) { sum += cubes(points); });
+  counts.for_each_by_leaf([&](const LatticeBox&, std::uint64_t points) { sum += cubes(points); });
   return sum;
 }
 
@@ -69,7 +69,8 @@ double count_of_leftovers(const tiling::CellCounts& counts, const SupervoxelScal
                           const SupervoxelScale& scale) {
   const CubesOfCell before(counts.level(), finer.voxel_steps), cubes(counts.level(), scale.voxel_steps);
   double sum = 0.0;
-  counts.for_each([&](const LatticeBox&, std::uint64_t points) { sum += before.lonely(points) * cubes(points); });
+  counts.for_each_by_leaf(
+      [&](const LatticeBox&, std::uint64_t points) { sum += before.lonely(points) * cubes(points); });
   return sum;
 }
 
@@ -106,10 +107,14 @@ double VoxelEstimate::lone() const {
   return std::clamp(2.0 * blocks - voxels, 0.0, voxels);
 }
 
+double likely_voxels(const tiling::Survey& survey, const SupervoxelScale& scale) {
+  return count_of_cubes(survey.counts, scale.voxel_steps);
+}
+
 VoxelEstimate estimate_voxels(const tiling::Survey& survey, const SupervoxelScale& scale) {
   VoxelEstimate estimate;
   const std::int64_t side = scale.voxel_steps;
-  estimate.voxels = count_of_cubes(survey.counts, side);
+  estimate.voxels = likely_voxels(survey, scale);
   estimate.blocks =
       std::min(estimate.voxels, count_of_large_cubes(survey.counts, tiling::VoxelIndex::kBlockSide * side));
   const double parts = std::clamp(count_of_large_cubes(survey.counts, tiling::VoxelIndex::kBlockSide * side / 2),
@@ -156,12 +161,12 @@ std::uint64_t predicted_scene_bytes(const VoxelEstimate& estimate) {
 
 std::uint64_t predicted_store_bytes(const tiling::Survey& survey, const SupervoxelScale& scale) {
   const auto each = static_cast<double>(tiling::VoxelLayout(VoxelGrid(scale.voxel_steps), false).bytes());
-  return static_cast<std::uint64_t>(each * estimate_voxels(survey, scale).voxels);
+  return static_cast<std::uint64_t>(each * likely_voxels(survey, scale));
 }
 
 std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
                                          const VoxelMemory& memory) {
-  const double voxels = estimate_voxels(survey, scale).voxels;
+  const double voxels = likely_voxels(survey, scale);
   const auto room = static_cast<double>(memory.table_bytes() + memory.index_bytes());
   const bool runs = voxels * kTableEntryBytes > static_cast<double>(memory.table_bytes());
   const bool tiles =

@@ -22,6 +22,9 @@ struct VoxelEstimate {
 /// The points of a cell fill what voxels a surface through it crosses. Within a tenth on towns of any density.
 VoxelEstimate estimate_voxels(const tiling::Survey& survey, const SupervoxelScale& scale);
 
+/// Their voxels alone.
+double likely_voxels(const tiling::Survey& survey, const SupervoxelScale& scale);
+
 /// Peak of a run that writes labels only, without colours: tiles are cut as they would be if the voxels of a cell lay
 /// in its middle. To be asked when the survey is made: what is resident then, and was before, counts; free memory is
 /// given back, as it is before supervoxels grow.

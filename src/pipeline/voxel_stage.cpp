@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/read_ahead.h"
 #include "pipeline/colour_source.h"
+#include "pipeline/voxel_estimate.h"
 #include "tiling/lattice_mapper.h"
 #include "tiling/voxel_accumulator.h"
 
@@ -29,8 +30,9 @@ VoxelStageResult run_voxel_stage(io::InputSet& inputs, const tiling::Survey& sur
 
   progress.phase("voxels", inputs.points());
   const tiling::LatticeMapper mapper(inputs.sources(), survey.lattice);
-  tiling::VoxelAccumulator accumulator(VoxelGrid(scale.voxel_steps),
-                                       {folder, memory.table_bytes(), memory.index_bytes()});
+  tiling::VoxelAccumulator accumulator(
+      VoxelGrid(scale.voxel_steps),
+      {folder, memory.table_bytes(), memory.index_bytes(), static_cast<std::size_t>(likely_voxels(survey, scale))});
   io::ReadOptions options;
   options.records = colours != nullptr;
   io::PointBatch batch;

@@ -250,7 +250,7 @@ std::size_t CellCounts::remove(std::span<const LatticePoint> points,
 
 void CellCounts::merge(const CellCounts& other) {
   while (impl_->level < other.impl_->level) impl_->coarsen();
-  other.for_each([&](const LatticeBox& cell, std::uint64_t count) {
+  other.for_each_by_leaf([&](const LatticeBox& cell, std::uint64_t count) {
     add(LatticePoint{static_cast<std::int32_t>(cell.min[0]), static_cast<std::int32_t>(cell.min[1]),
                      static_cast<std::int32_t>(cell.min[2])},
         count);
@@ -273,6 +273,16 @@ CellCounts CellCounts::coarsened(int level) const {
   copy->overflow = impl_->overflow;
   while (copy->level < std::min(level, kMaxLevel)) copy->coarsen();
   return CellCounts(std::move(copy));
+}
+
+void CellCounts::for_each_by_leaf(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const {
+  for (auto leaf = impl_->tree->cbeginLeaf(); leaf; ++leaf) {
+    for (auto value = leaf->cbeginValueOn(); value; ++value) {
+      const openvdb::Coord at = value.getCoord();
+      const Cell cell{at.x(), at.y(), at.z()};
+      visit(cell_box(cell, impl_->level), static_cast<std::uint64_t>(*value) + impl_->carried(cell));
+    }
+  }
 }
 
 void CellCounts::for_each(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const {

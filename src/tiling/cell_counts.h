@@ -47,6 +47,8 @@ class CellCounts {
   CellCounts coarsened(int level) const;
   /// Calls visit(cell box, count) for every non-empty cell, in ascending (x, y, z) order of cells.
   void for_each(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const;
+  /// The same leaf by leaf, which is quicker: an order that depends on the set of cells only.
+  void for_each_by_leaf(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const;
 
  private:
   struct Impl;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/parallel.h"
 #include "tiling/checked_file.h"
 
 namespace arris::tiling {
@@ -10,6 +11,8 @@ namespace {
 
 /// Written at a time.
 constexpr std::size_t kBufferVoxels = 16 * 1024;
+/// Read by a thread at a time: so many chunks that those at the ends, which others read too, are few.
+constexpr std::size_t kReadVoxels = 16 * NormalFile::kChunkVoxels;
 
 std::uint64_t checksum(std::span<const NormalFile::Normal> normals) {
   Hasher hasher;
@@ -55,15 +58,17 @@ void NormalFile::finish() {
 
 PageVector<NormalFile::Normal> NormalFile::read(const VoxelTile& tile) const {
   PageVector<Normal> normals(tile.size());
-  std::vector<Normal> stored;
-  for (std::size_t v = 0; v < tile.size();) {
-    const Chunk& chunk = *std::prev(std::ranges::upper_bound(chunks_, tile.ranks[v], {}, &Chunk::first_rank));
-    stored.resize(chunk.voxels);
-    file_.read_at(chunk.offset, std::as_writable_bytes(std::span(stored)));
-    if (checksum(stored) != chunk.checksum) file_.throw_damaged();
-    for (; v < tile.size() && tile.ranks[v] - chunk.first_rank < chunk.voxels; ++v)
-      normals[v] = stored[tile.ranks[v] - chunk.first_rank];
-  }
+  parallel_for_chunks(tile.size(), kReadVoxels, [&](std::size_t begin, std::size_t end) {
+    std::vector<Normal> stored;
+    for (std::size_t v = begin; v < end;) {
+      const Chunk& chunk = *std::prev(std::ranges::upper_bound(chunks_, tile.ranks[v], {}, &Chunk::first_rank));
+      stored.resize(chunk.voxels);
+      file_.read_at(chunk.offset, std::as_writable_bytes(std::span(stored)));
+      if (checksum(stored) != chunk.checksum) file_.throw_damaged();
+      for (; v < end && tile.ranks[v] - chunk.first_rank < chunk.voxels; ++v)
+        normals[v] = stored[tile.ranks[v] - chunk.first_rank];
+    }
+  });
   return normals;
 }
 

@@ -30,6 +30,7 @@ class NormalFile {
   /// Call after the last append().
   void finish();
   /// Of all voxels of a tile, which must lie in the cores that were appended. Verified.
+  /// Reads in parallel.
   PageVector<Normal> read(const VoxelTile& tile) const;
 
   std::uint64_t size_bytes() const { return file_.size_bytes(); }

@@ -31,7 +31,7 @@ struct Partitioner::Impl {
         spool(options.folder, plan.tiles.size(), spool_limits(plan, options)),
         open_cells(plan.tiles.size(), 0),
         closed(std::move(on_closed)) {
-    remaining.for_each([&](const LatticeBox& cell, std::uint64_t) {
+    remaining.for_each_by_leaf([&](const LatticeBox& cell, std::uint64_t) {
       for (const std::uint32_t tile : touching(cell)) ++open_cells[tile];
     });
     untouched.resize(plan.tiles.size());

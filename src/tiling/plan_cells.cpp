@@ -27,7 +27,7 @@ bool PlanCells::refine(const std::function<void(const Add& add)>& pass) {
   const CellCounts& coarse = smallest();
   const int level = coarse.level();
   bool any = false;
-  coarse.for_each([&](const LatticeBox&, std::uint64_t count) { any |= count > most_points_; });
+  coarse.for_each_by_leaf([&](const LatticeBox&, std::uint64_t count) { any |= count > most_points_; });
   if (!any || level <= least_level_) return false;
 
   CellCounts counts(least_level_, kMostLeaves);
@@ -69,7 +69,7 @@ void PlanCells::for_each(
   for (std::size_t i = 0; i <= finer_.size(); ++i) {
     const CellCounts& counts = i == 0 ? largest() : finer_[i - 1];
     const bool refined = i < finer_.size();
-    counts.for_each([&](const LatticeBox& box, std::uint64_t count) {
+    counts.for_each_by_leaf([&](const LatticeBox& box, std::uint64_t count) {
       if (!refined || count <= most_points_) visit(box, counts.level(), count);
     });
   }

@@ -13,7 +13,7 @@ constexpr int kCoarsestLevel = 30;
 std::uint64_t median_count(const CellCounts& counts) {
   std::vector<std::uint64_t> cells;
   cells.reserve(counts.active_cells());
-  counts.for_each([&](const LatticeBox&, std::uint64_t count) { cells.push_back(count); });
+  counts.for_each_by_leaf([&](const LatticeBox&, std::uint64_t count) { cells.push_back(count); });
   std::ranges::sort(cells);
   std::uint64_t below = 0;
   for (const std::uint64_t count : cells) {

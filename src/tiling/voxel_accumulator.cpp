@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/text.h"
 #include "tiling/voxel_merge.h"
 #include "tiling/voxel_run.h"
@@ -21,19 +22,25 @@ namespace {
 
 // Large writes are cheaper, up to here.
 constexpr std::size_t kMostWriteBytes = 512 * 1024;
-// A batch of points, counters of the sort, and the rest.
-constexpr std::size_t kFixedBytes = 96 * 1024;
+constexpr std::size_t kFilledTogether = 4096;
+// A batch of points, counters of the sort, voxels on their way to the store, and the rest.
+constexpr std::size_t kFixedBytes = 96 * 1024 + 2 * kFilledTogether * sizeof(Voxel);
 // Runs merged at a time: few enough for the system's limit of open files.
 constexpr std::size_t kMostRuns = 128;
 constexpr std::uint64_t kDirectoryBytes = 8;  // Of the index, per block.
 constexpr std::size_t kLeastReadBytes = 64 * 1024;
 constexpr std::size_t kMostReadBytes = 1024 * 1024;
 
-/// Records in, voxels out.
+/// Records in, voxels out. Voxels are put into file and index on another thread while the next ones are summed, unless
+/// loops may use one thread only.
 class StoreFiller {
  public:
   StoreFiller(VoxelFile& file, VoxelIndex& index, std::uint64_t most_index_bytes)
-      : file_(file), index_(index), most_index_bytes_(most_index_bytes) {}
+      : file_(file), index_(index), most_index_bytes_(most_index_bytes) {
+    summed_.reserve(kFilledTogether);
+    taken_.reserve(kFilledTogether);
+    if (loop_threads() > 1) filling_.emplace(1);
+  }
   void add(const VoxelRecord& record) {
     if (!total_ || !(total_->key() == record.sums.key)) {
       complete();
@@ -41,21 +48,39 @@ class StoreFiller {
     }
     total_->add(record);
   }
-  void complete() {
-    if (!total_) return;
-    if (index_.size() == VoxelIndex::kNone - 1) {
-      throw BudgetError(fmt::format("more than {} voxels; choose a larger --voxel", index_.size()));
-    }
-    file_.append(total_->mean());
-    index_.append(total_->key());
-    if ((index_.size() & (kCheckEvery - 1)) == 0) check_index();
-    total_.reset();
+  /// Call it once all records are there.
+  void finish() {
+    complete();
+    fill();
+    if (filling_) filling_->wait();
   }
 
  private:
-  static constexpr std::uint32_t kCheckEvery = 4096;  // A power of two.
+  void complete() {
+    if (!total_) return;
+    summed_.push_back(total_->mean());
+    if (summed_.size() == kFilledTogether) fill();
+    total_.reset();
+  }
 
-  void check_index() const {
+  void fill() {
+    if (filling_) filling_->wait();
+    taken_.clear();
+    std::swap(summed_, taken_);
+    if (filling_) {
+      filling_->run([this] { append_taken(); });
+    } else {
+      append_taken();
+    }
+  }
+
+  void append_taken() {
+    for (const Voxel& voxel : taken_) file_.append(voxel);
+    for (const Voxel& voxel : taken_) {
+      if (index_.size() == VoxelIndex::kNone - 1)
+        throw BudgetError(fmt::format("more than {} voxels; choose a larger --voxel", index_.size()));
+      index_.append(voxel.key);
+    }
     // The directory comes on top when all blocks are known.
     if (index_.memory_bytes() + index_.blocks() * kDirectoryBytes <= most_index_bytes_) return;
     throw BudgetError(fmt::format(
@@ -67,6 +92,8 @@ class StoreFiller {
   VoxelIndex& index_;
   std::uint64_t most_index_bytes_;
   std::optional<VoxelTotal> total_;
+  std::vector<Voxel> summed_, taken_;
+  std::optional<BackgroundTasks> filling_;  // Of what is taken. Joined before that goes.
 };
 
 /// Adds to `sums` if the sums still fit.
@@ -88,7 +115,7 @@ struct VoxelAccumulator::Impl {
         most_index_bytes(options.most_index_bytes),
         write_bytes(std::min(options.table_bytes / 16, kMostWriteBytes)),
         free_bytes(options.table_bytes - std::min(kFixedBytes + write_bytes, options.table_bytes / 2)),
-        table(std::in_place, of, free_bytes) {}
+        table(std::in_place, of, free_bytes, options.likely_voxels) {}
 
   std::unique_ptr<VoxelRun> new_run(bool colours) {
     return std::make_unique<VoxelRun>(folder / fmt::format("voxels-{}.run", runs_made++), colours, write_bytes);
@@ -189,7 +216,7 @@ VoxelStore VoxelAccumulator::finish() {
     impl.table.reset();
     impl.merge_into(filler);
   }
-  filler.complete();
+  filler.finish();
   store->file.finish();
   store->index.finish();
   store->points = impl.points;

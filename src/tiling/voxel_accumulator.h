@@ -28,6 +28,7 @@ class VoxelAccumulator {
     std::filesystem::path folder;                        ///< Existing; runs and the store go here.
     std::size_t table_bytes = 32U * 1024U * 1024U;       ///< >= 1 MiB; less works, but takes more than was said.
     std::uint64_t most_index_bytes = ~std::uint64_t{0};  ///< finish() throws BudgetError rather than exceed it.
+    std::size_t likely_voxels = 0;                       ///< About so many; 0: not known. The table need not grow then.
   };
   VoxelAccumulator(const VoxelGrid& grid, Options options);
   ~VoxelAccumulator();

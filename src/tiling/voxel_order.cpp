@@ -6,7 +6,9 @@
 #include <numeric>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "core/parallel.h"
 #include "tiling/morton.h"
 #include "tiling/z_order_key.h"
 
@@ -17,6 +19,8 @@ constexpr int kDigitBits = 11;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 constexpr int kMostPasses = 6;
 using Counts = std::array<std::uint32_t, kDigits>;
+/// Elements that a thread is worth waking for.
+constexpr std::size_t kLeastPart = 32 * 1024;
 
 /// A key and an index in one word.
 struct Packed {
@@ -45,33 +49,69 @@ struct Apart {
   }
 };
 
-/// Lowest digit first.
+std::size_t digit(std::uint64_t key, int pass) {
+  return key >> pass * kDigitBits & (kDigits - 1);
+}
+
+/// From how often each digit comes in each part to where the first of them goes. False if all have the same digit.
+bool to_places(std::span<Counts> counts, std::size_t size) {
+  std::uint32_t begin = 0;
+  for (std::size_t value = 0; value < kDigits; ++value) {
+    const std::uint32_t before = begin;
+    for (Counts& part : counts) begin += std::exchange(part[value], begin);
+    if (begin - before == size) return false;
+  }
+  return true;
+}
+
+/// Lowest digit first. Every thread counts and moves a part of the elements; stable, so the order does not depend on
+/// how many there are.
 template <class Elements>
 PageArray<std::uint32_t> radix_order(std::span<const VoxelSums> sums, const ZOrderKey& key_of, int index_bits) {
   const std::size_t size = sums.size();
   const int passes = (key_of.bits() + kDigitBits - 1) / kDigitBits;
-  const auto digit = [](std::uint64_t key, int pass) { return key >> pass * kDigitBits & (kDigits - 1); };
-  std::array<Counts, kMostPasses> counts{};
+  const std::size_t parts =
+      std::clamp<std::size_t>(size / kLeastPart, 1, static_cast<std::size_t>(std::max(1, loop_threads())));
+  const std::size_t grain = (size + parts - 1) / parts;
+  // Elements change their part from pass to pass: several have to be counted again.
+  std::array<std::vector<Counts>, kMostPasses> counts;
+  for (int pass = 0; pass < passes; ++pass) counts[pass].resize(pass == 0 || parts == 1 ? parts : 0);
   Elements sorted(size, index_bits), spare(size, index_bits);
-  for (std::size_t i = 0; i < size; ++i) {
-    const std::uint64_t key = key_of(sums[i].key);
-    sorted.set(i, key, static_cast<std::uint32_t>(i));
-    for (int pass = 0; pass < passes; ++pass) ++counts[pass][digit(key, pass)];
-  }
-  for (int pass = 0; pass < passes; ++pass) {
-    Counts& next = counts[pass];
-    if (std::ranges::find(next, size) != next.end()) continue;  // All have the same digit.
-    std::uint32_t begin = 0;
-    for (std::uint32_t& count : next) begin += std::exchange(count, begin);
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::uint64_t key = sorted.key(i);
-      spare.set(next[digit(key, pass)]++, key, sorted.index(i));
+  parallel_for_chunks(size, grain, [&](std::size_t begin, std::size_t end) {
+    const std::size_t part = begin / grain;
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint64_t key = key_of(sums[i].key);
+      sorted.set(i, key, static_cast<std::uint32_t>(i));
+      ++counts[0][part][digit(key, 0)];
+      if (parts == 1) {
+        for (int pass = 1; pass < passes; ++pass) ++counts[pass][0][digit(key, pass)];
+      }
     }
+  });
+  for (int pass = 0; pass < passes; ++pass) {
+    std::vector<Counts>& next = counts[pass];
+    if (next.empty()) {
+      next.resize(parts);
+      parallel_for_chunks(size, grain, [&](std::size_t begin, std::size_t end) {
+        Counts& own = next[begin / grain];
+        for (std::size_t i = begin; i < end; ++i) ++own[digit(sorted.key(i), pass)];
+      });
+    }
+    if (!to_places(next, size)) continue;
+    parallel_for_chunks(size, grain, [&](std::size_t begin, std::size_t end) {
+      Counts& own = next[begin / grain];
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::uint64_t key = sorted.key(i);
+        spare.set(own[digit(key, pass)]++, key, sorted.index(i));
+      }
+    });
     std::swap(sorted, spare);
   }
   { const Elements gone = std::move(spare); }
   PageArray<std::uint32_t> order(size);
-  for (std::size_t i = 0; i < size; ++i) order[i] = sorted.index(i);
+  parallel_for_chunks(size, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) order[i] = sorted.index(i);
+  });
   return order;
 }
 

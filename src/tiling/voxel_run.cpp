@@ -7,19 +7,33 @@ namespace arris::tiling {
 VoxelRun::VoxelRun(std::filesystem::path path, bool colours, std::size_t buffer_bytes)
     : file_(std::move(path)),
       record_bytes_(colours ? sizeof(VoxelRecord) : sizeof(VoxelSums)),
-      own_buffer_(std::max(buffer_bytes / record_bytes_, std::size_t{1}) * record_bytes_),
+      own_buffer_(2 * std::max(buffer_bytes / (2 * record_bytes_), std::size_t{1}) * record_bytes_),
       buffer_(own_buffer_),
-      hasher_(std::in_place) {}
+      hasher_(std::in_place) {
+  if (loop_threads() == 1) return;
+  buffer_ = buffer_.first(own_buffer_.size() / 2);
+  writing_.emplace(1);
+}
 
 void VoxelRun::flush() {
-  const auto bytes = std::span<const std::byte>(buffer_.first(used_));
+  const std::span<const std::byte> full = buffer_.first(used_);
+  used_ = 0;
+  if (!writing_) return write(full);
+  writing_->wait();
+  writing_->run([this, full] { write(full); });
+  const std::size_t half = own_buffer_.size() / 2;
+  buffer_ = std::span(own_buffer_).subspan(buffer_.data() == own_buffer_.data() ? half : 0, half);
+}
+
+void VoxelRun::write(std::span<const std::byte> bytes) {
   hasher_->update(bytes.data(), bytes.size());
   file_.append(bytes);
-  used_ = 0;
 }
 
 void VoxelRun::close() {
   flush();
+  if (writing_) writing_->wait();
+  writing_.reset();
   digest_ = hasher_->digest();
   hasher_.reset();
   file_.close();

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/parallel.h"
 #include "tiling/checked_file.h"
 #include "tiling/scratch_file.h"
 #include "tiling/voxel_sums.h"
@@ -19,6 +20,8 @@ namespace arris::tiling {
 /// Removes its file on destruction. Throws IoError.
 class VoxelRun {
  public:
+  /// @param buffer_bytes  for writing: one half is filled while another thread writes the other, unless loops may use
+  /// one thread only.
   VoxelRun(std::filesystem::path path, bool colours, std::size_t buffer_bytes);
 
   void append(const VoxelRecord& record) {
@@ -48,6 +51,7 @@ class VoxelRun {
 
  private:
   void flush();
+  void write(std::span<const std::byte> bytes);
   bool refill();
 
   ScratchFile file_;
@@ -59,6 +63,7 @@ class VoxelRun {
   std::uint64_t position_ = 0;
   std::optional<Hasher> hasher_;  // While the run is open.
   std::uint64_t digest_ = 0;
+  std::optional<BackgroundTasks> writing_;  // Of the other half of the buffer. Joined before that goes.
 };
 
 }  // namespace arris::tiling

@@ -49,32 +49,29 @@ void VoxelStore::read(std::uint32_t begin, std::uint32_t end, std::vector<Voxel>
   impl_->index.for_each_key(begin, end, [&](const LatticePoint& key) { (voxel++)->key = key; });
 }
 
-void VoxelStore::for_each_stretch(
-    const LatticeBox& keys, const std::function<void(std::span<const Voxel>, std::uint32_t first_rank)>& use) const {
-  std::vector<Voxel> voxels;
+std::vector<RankRange> VoxelStore::stretches(const LatticeBox& keys) const {
+  std::vector<RankRange> found;
   for (const BlockRange& blocks : select_blocks(impl_->index, keys)) {
     const std::uint32_t end = impl_->index.first_rank(blocks.end);
-    for (std::uint32_t rank = impl_->index.first_rank(blocks.begin); rank < end;) {
-      const std::uint32_t next = rank + std::min(kStretch - rank % kStretch, end - rank);
-      read(rank, next, voxels);
-      use(voxels, rank);
-      rank = next;
+    for (std::uint32_t rank = impl_->index.first_rank(blocks.begin); rank < end; rank = found.back().end) {
+      found.push_back({rank, rank + std::min(kStretch - rank % kStretch, end - rank)});
     }
   }
+  return found;
 }
 
 void VoxelStore::load(const LatticeBox& keys, std::vector<Voxel>& voxels, std::vector<std::uint32_t>& ranks) const {
   voxels.clear();
   ranks.clear();
-  for_each_stretch(keys, [&](std::span<const Voxel> stretch, std::uint32_t rank) {
-    for (const Voxel& voxel : stretch) {
-      if (keys.contains(voxel.key)) {
-        voxels.push_back(voxel);
-        ranks.push_back(rank);
-      }
-      ++rank;
+  std::vector<Voxel> stretch;
+  for (const RankRange& range : stretches(keys)) {
+    read(range.begin, range.end, stretch);
+    for (std::size_t i = 0; i < stretch.size(); ++i) {
+      if (!keys.contains(stretch[i].key)) continue;
+      voxels.push_back(stretch[i]);
+      ranks.push_back(range.begin + static_cast<std::uint32_t>(i));
     }
-  });
+  }
 }
 
 }  // namespace arris::tiling

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -13,6 +12,12 @@
 #include "tiling/voxel_index.h"
 
 namespace arris::tiling {
+
+/// Ranks [begin, end).
+struct RankRange {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
 
 /// The voxels of a VoxelAccumulator. Movable. Removes its file on destruction.
 class VoxelStore {
@@ -31,10 +36,9 @@ class VoxelStore {
   /// Replaces the outputs by the voxels whose keys lie in `keys`, in Z-order, and their ranks. Reads whole blocks, each
   /// part of the file verified by its checksum. Thread-safe. Throws IoError if the bytes are not those written.
   void load(const LatticeBox& keys, std::vector<Voxel>& voxels, std::vector<std::uint32_t>& ranks) const;
-  /// Calls use(voxels, rank of the first) for short stretches of consecutive ranks, ascending, that together hold all
-  /// voxels of the box, and others. Reads as load() does, without keeping anything.
-  void for_each_stretch(const LatticeBox& keys,
-                        const std::function<void(std::span<const Voxel>, std::uint32_t first_rank)>& use) const;
+  /// Short stretches of consecutive ranks, ascending, that together hold all voxels of the box, and others; cut where
+  /// parts of the file end.
+  std::vector<RankRange> stretches(const LatticeBox& keys) const;
   /// Replaces `voxels` by those with ranks [begin, end). Verified. Thread-safe. Throws IoError likewise.
   void read(std::uint32_t begin, std::uint32_t end, std::vector<Voxel>& voxels) const;
   std::uint64_t bytes_on_disk() const;

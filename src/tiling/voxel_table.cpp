@@ -17,6 +17,9 @@ namespace {
 constexpr std::size_t kBatch = 128;
 constexpr std::size_t kFirstSlots = std::size_t{1} << 16;
 constexpr std::size_t kGrowth = 8;
+// Where it is known how many sums are likely there are never many more.
+constexpr std::size_t kLikelyGrowth = 2;
+constexpr std::size_t kSpareShare = 8;
 constexpr std::uint32_t kFull = 0xffffffffU;
 
 // No more memory than sorting takes afterwards.
@@ -67,10 +70,13 @@ struct VoxelTable::Batch {
 #endif
 };
 
-VoxelTable::VoxelTable(const VoxelGrid& grid, std::size_t size_bytes) : grid_(grid), size_bytes_(size_bytes) {
+VoxelTable::VoxelTable(const VoxelGrid& grid, std::size_t size_bytes, std::size_t likely_sums)
+    : grid_(grid), size_bytes_(size_bytes) {
   set_capacity();
   sums_ = PageArray<VoxelSums>(capacity_);
-  first_slots_ = std::min(kFirstSlots, kSlotsPerSum * (capacity_ + 1));
+  const std::size_t likely_slots = kSlotsPerSum * (likely_sums + likely_sums / kSpareShare);
+  first_slots_ = std::min(std::max(kFirstSlots, likely_slots), kSlotsPerSum * (capacity_ + 1));
+  growth_ = likely_sums > 0 ? kLikelyGrowth : kGrowth;
 }
 
 void VoxelTable::set_capacity() {
@@ -124,7 +130,7 @@ inline std::uint32_t VoxelTable::find_or_begin(const LatticePoint& key, std::uin
   }
   if (size_ >= capacity_) return kFull;
   if (size_ >= slots_full_at_) {
-    first_slots_ = std::min(kGrowth * slots_.size(), kSlotsPerSum * (capacity_ + 1));
+    first_slots_ = std::min(growth_ * slots_.size(), kSlotsPerSum * (capacity_ + 1));
     rehash(first_slots_);
     slot = find(key, hash);
   }

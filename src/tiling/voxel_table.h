@@ -20,7 +20,8 @@ namespace arris::tiling {
 /// Memory: `size_bytes`, sorting included: 52 bytes per sum, 64 with colours.
 class VoxelTable {
  public:
-  VoxelTable(const VoxelGrid& grid, std::size_t size_bytes);
+  /// @param likely_sums  about so many, 0: not known.
+  VoxelTable(const VoxelGrid& grid, std::size_t size_bytes, std::size_t likely_sums = 0);
 
   /// Adds points from the first on; returns how many. Fewer than all only if the table is full.
   /// @param colours  as many as positions, or none.
@@ -67,6 +68,7 @@ class VoxelTable {
   HashSlots slots_;                // To sums_.
   std::size_t first_slots_ = 0;    // As many as the table had last.
   std::size_t slots_full_at_ = 0;  // Sums at which slots_ must grow.
+  std::size_t growth_ = 0;         // So many times.
 };
 
 }  // namespace arris::tiling

@@ -114,7 +114,7 @@ TilePlan plan_voxel_tiles(const VoxelBlocks& blocks, const VoxelPlanRequest& req
   add_blocks(
       [&](std::span<const LatticePoint> corners, std::uint64_t count) { voxels.counts.add(corners.front(), count); });
   voxels.points_in = voxels.counts.total();
-  voxels.counts.for_each([&](const LatticeBox& cell, std::uint64_t) { voxels.bounds.include(cell); });
+  voxels.counts.for_each_by_leaf([&](const LatticeBox& cell, std::uint64_t) { voxels.bounds.include(cell); });
   PlanRequest plan;
   plan.max_points = request.max_voxels;
   plan.max_core_points = request.max_core_voxels;

@@ -24,7 +24,8 @@ struct Settled {
 Settled settle(const GrowthScene& s, const VoxelTile& tile, const VoxelFeatures& features,
                const PageVector<std::uint32_t>& clusters) {
   Settled result{clusters, {}};
-  result.orphans = settle_leftovers(tile, features, s.clusters, s.parameters, s.scale, result.clusters);
+  attach_leftovers(tile, features, s.clusters, s.parameters, s.scale, result.clusters);
+  result.orphans = group_orphans(tile, s.scale, result.clusters);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "tiling/random_cloud.h"
@@ -77,6 +78,26 @@ RC_GTEST_PROP(CellCounts, AnyOrder_GivesTheSameLevelAndCounts, ()) {
   for (const LatticePoint& p : points) other.add(std::span(&p, 1));
   RC_ASSERT(one.level() == other.level());
   RC_ASSERT(listed(one) == listed(other));
+}
+
+RC_GTEST_PROP(CellCounts, ByLeaf_VisitsTheSameCellsInAnOrderOfTheSetOnly, ()) {
+  auto points = test::any_cloud(1, 600);
+  const auto max_leaves = *rc::gen::inRange<std::size_t>(1, 100).as("max leaves");
+  const auto visited = [&] {
+    CellCounts counts(0, max_leaves);
+    counts.add(points);
+    std::vector<std::pair<std::array<std::int64_t, 3>, std::uint64_t>> cells;
+    counts.for_each_by_leaf([&](const LatticeBox& box, std::uint64_t count) { cells.emplace_back(box.min, count); });
+    Cells sorted;
+    counts.for_each([&](const LatticeBox& box, std::uint64_t count) { sorted[box.min] = count; });
+    RC_ASSERT(cells.size() == sorted.size());
+    RC_ASSERT(Cells(cells.begin(), cells.end()) == sorted);
+    return cells;
+  };
+  const auto before = visited();
+  std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
+  std::ranges::shuffle(points, random);
+  RC_ASSERT(visited() == before);
 }
 
 RC_GTEST_PROP(CellCounts, Merged_CountAsAllAtOnce, ()) {

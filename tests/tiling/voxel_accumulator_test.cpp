@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "support/temp_folder.h"
 #include "tiling/random_cloud.h"
 #include "tiling/voxel_file.h"
@@ -58,6 +59,28 @@ void add_in_batches(VoxelAccumulator& accumulator, std::mt19937_64& random, std:
     points = points.subspan(size);
     if (!colours.empty()) colours = colours.subspan(size);
   }
+}
+
+/// Enough voxels that several threads sort them, that runs are written behind and that the store is filled in parts.
+TEST(VoxelAccumulator, SeveralThreads_GiveTheVoxelsOfOne) {
+  std::mt19937_64 random(31);
+  const auto coordinate = [&] { return static_cast<std::int32_t>(random() % 2000) - 1000; };
+  std::vector<LatticePoint> points(300'000);
+  for (LatticePoint& p : points) p = {coordinate(), coordinate(), coordinate()};
+  const auto colours = random_colours(random, points.size());
+  const auto voxels_by = [&](int threads, std::size_t table_bytes, std::size_t likely_voxels) {
+    const test::TempFolder folder;
+    const ThreadLimit limit(threads);
+    VoxelAccumulator accumulator(VoxelGrid(30), {folder.path(), table_bytes, ~std::uint64_t{0}, likely_voxels});
+    accumulator.add(points, colours);
+    return all_voxels(accumulator.finish());
+  };
+  const std::vector<Voxel> expected = voxels_by(1, 64 << 20, 0);
+  ASSERT_GT(expected.size(), 150'000U);
+  EXPECT_EQ(voxels_by(4, 64 << 20, 0), expected);
+  EXPECT_EQ(voxels_by(4, 64 << 20, expected.size()), expected);
+  EXPECT_EQ(voxels_by(4, 64 << 20, 1000), expected);
+  EXPECT_EQ(voxels_by(4, 3 << 20, 0), expected);
 }
 
 RC_GTEST_PROP(VoxelAccumulator, AnyCloudOrderBatchesAndTable_GivesTheVoxelsOfTheDefinition, ()) {

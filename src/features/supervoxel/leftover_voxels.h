@@ -18,11 +18,14 @@ struct OrphanVoxel {
 };
 
 /// Attaches each voxel without cluster that touches clusters (among its 26 neighbours, as `clusters_of` came in) to the
-/// one of smallest (D, cluster). What is left forms groups of its own: connected voxels of one seed cell. `clusters_of`
-/// gets what was attached; the groups' voxels in the tile's core are returned, ascending ranks.
-/// Depends on the clusters of voxels in the same seed cell and one voxel around it.
-std::vector<OrphanVoxel> settle_leftovers(const VoxelTile& tile, const VoxelFeatures& features,
-                                          const Clusters& clusters, const SupervoxelParameters& parameters,
-                                          const SupervoxelScale& scale, std::span<std::uint32_t> clusters_of);
+/// one of smallest (D, cluster). Depends on the clusters of voxels around it. In parallel.
+void attach_leftovers(const VoxelTile& tile, const VoxelFeatures& features, const Clusters& clusters,
+                      const SupervoxelParameters& parameters, const SupervoxelScale& scale,
+                      std::span<std::uint32_t> clusters_of);
+
+/// What is left forms groups of its own: connected voxels of one seed cell. Returns the groups' voxels in the tile's
+/// core, ascending ranks. Depends on the clusters of voxels in the same seed cell.
+std::vector<OrphanVoxel> group_orphans(const VoxelTile& tile, const SupervoxelScale& scale,
+                                       std::span<const std::uint32_t> clusters_of);
 
 }  // namespace arris
