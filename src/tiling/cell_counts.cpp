@@ -1,139 +1,52 @@
 #include "tiling/cell_counts.h"
 
-#include <openvdb/tree/Tree.h>
-
 #include <algorithm>
-#include <array>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "tiling/cell_level.h"
+#include "tiling/cell_tree.h"
+
 namespace arris::tiling {
 namespace {
 
-// Small upper nodes: with OpenVDB's usual 5-4-3 tree every far-away outlier costs 300 kB of internal nodes, here 0.6
-// kB.
-using Tree = openvdb::tree::Tree3<openvdb::Int32, 2, 3>::Type;
-using Leaf = Tree::LeafNodeType;
-using Cell = std::array<std::int32_t, 3>;
-
-constexpr int kLeafLog2 = 3;
-constexpr int kMaxLevel = 30;
 // Part of a cell's count that moves to the overflow map in one go; small enough that adding one can never overflow
 // int32.
 constexpr std::int32_t kCarry = 1 << 30;
-
-openvdb::Index offset_in_leaf(std::int32_t x, std::int32_t y, std::int32_t z) {
-  return static_cast<openvdb::Index>(((x & 7) << 6) | ((y & 7) << 3) | (z & 7));
-}
-
-LatticeBox cell_box(const Cell& cell, int level) {
-  LatticeBox box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.min[axis] = std::int64_t{cell[axis]} * (std::int64_t{1} << level);
-    box.max[axis] = box.min[axis] + (std::int64_t{1} << level);
-  }
-  return box;
-}
-
-Cell cell_of(const LatticePoint& p, int level) {
-  return {p.x >> level, p.y >> level, p.z >> level};
-}
-
-/// Where the run of points of the same cell ends that starts at `begin`: scans mostly stay in a cell for a while.
-std::size_t end_of_run(std::span<const LatticePoint> points, std::size_t begin, int level) {
-  const Cell cell = cell_of(points[begin], level);
-  std::size_t end = begin + 1;
-  while (end < points.size() && cell_of(points[end], level) == cell) ++end;
-  return end;
-}
-
-/// The finest level from `first` on at which some of the points, spread over all, take no more leaves than that, as far
-/// as hashes tell leaves apart: every set that holds the points needs this level or a coarser one, and counting that
-/// begins there is spared the coarsening up to it.
-int level_that_fits(std::span<const LatticePoint> points, int first, std::size_t max_leaves) {
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / std::max<std::size_t>(1, 4 * max_leaves));
-  std::vector<std::uint64_t> hashes;
-  const auto fits = [&](int level) {
-    hashes.clear();
-    for (std::size_t i = 0; i < points.size(); i += stride) {
-      const Cell leaf = cell_of(points[i], std::min(level + kLeafLog2, 31));
-      std::uint64_t hash = 0;
-      for (const std::int32_t c : leaf) hash = (hash ^ static_cast<std::uint32_t>(c)) * 0x9E3779B97F4A7C15U;
-      if (hashes.empty() || hash != hashes.back()) hashes.push_back(hash);
-    }
-    if (hashes.size() <= max_leaves) return true;
-    std::ranges::sort(hashes);
-    return static_cast<std::size_t>(std::ranges::unique(hashes).begin() - hashes.begin()) <= max_leaves;
-  };
-  int low = first, high = kMaxLevel;  // The level lies in [low, high].
-  while (low < high) {
-    const int middle = low + (high - low) / 2;
-    if (fits(middle)) {
-      high = middle;
-    } else {
-      low = middle + 1;
-    }
-  }
-  return low;
-}
-
-/// Leaves met lately, found by a hash of their position: most points need no walk down the tree.
-class LeafCache {
- public:
-  Leaf* find(std::int32_t x, std::int32_t y, std::int32_t z) const {
-    const Entry& entry = entries_[slot(x, y, z)];
-    return entry.leaf && entry.x == x && entry.y == y && entry.z == z ? entry.leaf : nullptr;
-  }
-  void put(std::int32_t x, std::int32_t y, std::int32_t z, Leaf* leaf) { entries_[slot(x, y, z)] = {leaf, x, y, z}; }
-  void clear() { entries_.fill({}); }
-
- private:
-  struct Entry {
-    Leaf* leaf = nullptr;
-    std::int32_t x = 0, y = 0, z = 0;
-  };
-  static std::size_t slot(std::int32_t x, std::int32_t y, std::int32_t z) {
-    const std::uint32_t hash = static_cast<std::uint32_t>(x) * 0x9E3779B1U ^
-                               static_cast<std::uint32_t>(y) * 0x85EBCA77U ^
-                               static_cast<std::uint32_t>(z) * 0xC2B2AE3DU;
-    return hash >> 22;
-  }
-  std::array<Entry, 1024> entries_{};
-};
 
 }  // namespace
 
 struct CellCounts::Impl {
   Impl(int first_level, std::size_t most_leaves)
-      : level(std::clamp(first_level, 0, kMaxLevel)), max_leaves(std::max<std::size_t>(most_leaves, 1)) {}
+      : level(std::clamp(first_level, 0, kMaxCellLevel)), max_leaves(std::max<std::size_t>(most_leaves, 1)) {}
 
   int level;
   std::size_t max_leaves;
   std::size_t leaves = 0;
   std::uint64_t total = 0;
-  std::unique_ptr<Tree> tree = std::make_unique<Tree>(0);
+  std::unique_ptr<CellTree> tree = std::make_unique<CellTree>(0);
   std::map<Cell, std::uint64_t> overflow;  // Multiples of kCarry that are not in the tree.
-  LeafCache cache;
+  CellLeafCache cache;
 
-  Leaf* probe_leaf(std::int32_t cx, std::int32_t cy, std::int32_t cz) {
-    const std::int32_t lx = cx >> kLeafLog2, ly = cy >> kLeafLog2, lz = cz >> kLeafLog2;
-    if (Leaf* leaf = cache.find(lx, ly, lz)) return leaf;
-    Leaf* leaf = tree->probeLeaf(openvdb::Coord(cx, cy, cz));
+  CellLeaf* probe_leaf(std::int32_t cx, std::int32_t cy, std::int32_t cz) {
+    const std::int32_t lx = cx >> kCellLeafLog2, ly = cy >> kCellLeafLog2, lz = cz >> kCellLeafLog2;
+    if (CellLeaf* leaf = cache.find(lx, ly, lz)) return leaf;
+    CellLeaf* leaf = tree->probeLeaf(openvdb::Coord(cx, cy, cz));
     if (leaf) cache.put(lx, ly, lz, leaf);
     return leaf;
   }
 
-  Leaf* touch_leaf(std::int32_t cx, std::int32_t cy, std::int32_t cz) {
-    if (Leaf* leaf = probe_leaf(cx, cy, cz)) return leaf;
-    Leaf* leaf = tree->touchLeaf(openvdb::Coord(cx, cy, cz));
+  CellLeaf* touch_leaf(std::int32_t cx, std::int32_t cy, std::int32_t cz) {
+    if (CellLeaf* leaf = probe_leaf(cx, cy, cz)) return leaf;
+    CellLeaf* leaf = tree->touchLeaf(openvdb::Coord(cx, cy, cz));
     ++leaves;
-    cache.put(cx >> kLeafLog2, cy >> kLeafLog2, cz >> kLeafLog2, leaf);
+    cache.put(cx >> kCellLeafLog2, cy >> kCellLeafLog2, cz >> kCellLeafLog2, leaf);
     return leaf;
   }
 
   void add_to_cell(const Cell& cell, std::uint64_t count) {
-    Leaf* leaf = touch_leaf(cell[0], cell[1], cell[2]);
+    CellLeaf* leaf = touch_leaf(cell[0], cell[1], cell[2]);
     const openvdb::Index offset = offset_in_leaf(cell[0], cell[1], cell[2]);
     leaf->setActiveState(offset, true);
     std::int32_t& stored = leaf->buffer().data()[offset];
@@ -146,7 +59,7 @@ struct CellCounts::Impl {
   /// Calls emptied() if the cell's last point went. Returns how many of `count` points were there.
   template <typename Emptied>
   std::uint64_t take_from_cell(const Cell& cell, std::uint64_t count, Emptied&& emptied) {
-    Leaf* leaf = probe_leaf(cell[0], cell[1], cell[2]);
+    CellLeaf* leaf = probe_leaf(cell[0], cell[1], cell[2]);
     const openvdb::Index offset = offset_in_leaf(cell[0], cell[1], cell[2]);
     if (!leaf || !leaf->isValueOn(offset)) return 0;
     std::int32_t& stored = leaf->buffer().data()[offset];
@@ -176,7 +89,7 @@ struct CellCounts::Impl {
   }
 
   void coarsen() {
-    const std::unique_ptr<Tree> fine = std::exchange(tree, std::make_unique<Tree>(0));
+    const std::unique_ptr<CellTree> fine = std::exchange(tree, std::make_unique<CellTree>(0));
     const std::map<Cell, std::uint64_t> fine_overflow = std::exchange(overflow, {});
     cache.clear();
     leaves = 0;
@@ -191,7 +104,7 @@ struct CellCounts::Impl {
   }
 
   void coarsen_to_fit() {
-    while (leaves > max_leaves && level < kMaxLevel) coarsen();
+    while (leaves > max_leaves && level < kMaxCellLevel) coarsen();
   }
 };
 
@@ -260,7 +173,7 @@ void CellCounts::merge(const CellCounts& other) {
 std::uint64_t CellCounts::count_at(const LatticePoint& position) const {
   const int level = impl_->level;
   const Cell cell = cell_of(position, level);
-  const Leaf* leaf = impl_->tree->probeConstLeaf(openvdb::Coord(cell[0], cell[1], cell[2]));
+  const CellLeaf* leaf = impl_->tree->probeConstLeaf(openvdb::Coord(cell[0], cell[1], cell[2]));
   if (!leaf) return 0;
   return static_cast<std::uint64_t>(leaf->getValue(offset_in_leaf(cell[0], cell[1], cell[2]))) + impl_->carried(cell);
 }
@@ -269,9 +182,9 @@ CellCounts CellCounts::coarsened(int level) const {
   auto copy = std::make_unique<Impl>(impl_->level, impl_->max_leaves);
   copy->leaves = impl_->leaves;
   copy->total = impl_->total;
-  copy->tree = std::make_unique<Tree>(*impl_->tree);
+  copy->tree = std::make_unique<CellTree>(*impl_->tree);
   copy->overflow = impl_->overflow;
-  while (copy->level < std::min(level, kMaxLevel)) copy->coarsen();
+  while (copy->level < std::min(level, kMaxCellLevel)) copy->coarsen();
   return CellCounts(std::move(copy));
 }
 
@@ -287,17 +200,17 @@ void CellCounts::for_each_by_leaf(const std::function<void(const LatticeBox& cel
 
 void CellCounts::for_each(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const {
   // Ascending order without a list of all cells: leaves are sorted, then rows of leaves are walked plane by plane.
-  std::vector<const Leaf*> leaves;
+  std::vector<const CellLeaf*> leaves;
   leaves.reserve(impl_->leaves);
   for (auto leaf = impl_->tree->cbeginLeaf(); leaf; ++leaf) leaves.push_back(&*leaf);
-  std::ranges::sort(leaves, [](const Leaf* a, const Leaf* b) { return a->origin() < b->origin(); });
+  std::ranges::sort(leaves, [](const CellLeaf* a, const CellLeaf* b) { return a->origin() < b->origin(); });
   const auto same = [&](std::size_t a, std::size_t b, int axes) {
     for (int axis = 0; axis < axes; ++axis) {
       if (leaves[a]->origin()[axis] != leaves[b]->origin()[axis]) return false;
     }
     return true;
   };
-  const auto visit_column = [&](const Leaf& leaf, std::int32_t dx, std::int32_t dy) {
+  const auto visit_column = [&](const CellLeaf& leaf, std::int32_t dx, std::int32_t dy) {
     for (std::int32_t dz = 0; dz < 8; ++dz) {
       const openvdb::Index offset = offset_in_leaf(dx, dy, dz);
       if (!leaf.isValueOn(offset)) continue;

@@ -1,0 +1,76 @@
+#pragma once
+/// @file The grid in which CellCounts keeps its counts. Private to it: includes OpenVDB.
+
+#include <openvdb/tree/Tree.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/lattice.h"
+
+namespace arris::tiling {
+
+// Small upper nodes: with OpenVDB's usual 5-4-3 tree every far-away outlier costs 300 kB of internal nodes, here 0.6
+// kB.
+using CellTree = openvdb::tree::Tree3<openvdb::Int32, 2, 3>::Type;
+using CellLeaf = CellTree::LeafNodeType;
+using Cell = std::array<std::int32_t, 3>;
+
+constexpr int kCellLeafLog2 = 3;
+/// Coarsest level: a cell is 2^level steps long.
+constexpr int kMaxCellLevel = 30;
+
+inline openvdb::Index offset_in_leaf(std::int32_t x, std::int32_t y, std::int32_t z) {
+  return static_cast<openvdb::Index>(((x & 7) << 6) | ((y & 7) << 3) | (z & 7));
+}
+
+inline LatticeBox cell_box(const Cell& cell, int level) {
+  LatticeBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min[axis] = std::int64_t{cell[axis]} * (std::int64_t{1} << level);
+    box.max[axis] = box.min[axis] + (std::int64_t{1} << level);
+  }
+  return box;
+}
+
+inline Cell cell_of(const LatticePoint& p, int level) {
+  return {p.x >> level, p.y >> level, p.z >> level};
+}
+
+/// Where the run of points of the same cell ends that starts at `begin`: scans mostly stay in a cell for a while.
+inline std::size_t end_of_run(std::span<const LatticePoint> points, std::size_t begin, int level) {
+  const Cell cell = cell_of(points[begin], level);
+  std::size_t end = begin + 1;
+  while (end < points.size() && cell_of(points[end], level) == cell) ++end;
+  return end;
+}
+
+/// Leaves met lately, found by a hash of their position: most points need no walk down the tree.
+class CellLeafCache {
+ public:
+  CellLeaf* find(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    const Entry& entry = entries_[slot(x, y, z)];
+    return entry.leaf && entry.x == x && entry.y == y && entry.z == z ? entry.leaf : nullptr;
+  }
+  void put(std::int32_t x, std::int32_t y, std::int32_t z, CellLeaf* leaf) {
+    entries_[slot(x, y, z)] = {leaf, x, y, z};
+  }
+  void clear() { entries_.fill({}); }
+
+ private:
+  struct Entry {
+    CellLeaf* leaf = nullptr;
+    std::int32_t x = 0, y = 0, z = 0;
+  };
+  static std::size_t slot(std::int32_t x, std::int32_t y, std::int32_t z) {
+    const std::uint32_t hash = static_cast<std::uint32_t>(x) * 0x9E3779B1U ^
+                               static_cast<std::uint32_t>(y) * 0x85EBCA77U ^
+                               static_cast<std::uint32_t>(z) * 0xC2B2AE3DU;
+    return hash >> 22;
+  }
+  std::array<Entry, 1024> entries_{};
+};
+
+}  // namespace arris::tiling
