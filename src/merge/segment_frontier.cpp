@@ -30,30 +30,41 @@ void SegmentFrontier::append(std::span<const std::uint32_t> words) {
 }
 
 void SegmentFrontier::keep_border(const PointLabels& labels, std::uint64_t most_bytes) {
-  std::size_t next_part = 0;
   std::uint64_t kept_bytes = 0;
-  for_each_block_on_disk([&](const FrontierBlock& block) {
-    Part& part = parts_[next_part++];
-    part.dropped.resize(block.size());
-    FrontierBlock border;
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      const FrontierPoint p = block.point(i);
-      const std::uint32_t own = labels[p.id];
-      const auto same = [&](std::uint32_t neighbour) { return labels[neighbour] == own; };
-      part.dropped[i] = own != 0 && std::all_of(p.neighbours.begin(), p.neighbours.end(), same);
-      if (!part.dropped[i] && kept_bytes < most_bytes) border.add(p);
+  std::vector<FrontierBlock> borders(std::min(kPartsAtATime, parts_.size()));
+  for (std::size_t first = 0; first < parts_.size(); first += borders.size()) {
+    const std::size_t count = std::min(borders.size(), parts_.size() - first);
+    const bool keeps = kept_bytes < most_bytes;
+    parallel_for_chunks(
+        count, 1, [&](std::size_t i, std::size_t) { borders[i] = drop_interior(labels, parts_[first + i], keeps); });
+    for (std::size_t i = 0; i < count; ++i) {
+      Part& part = parts_[first + i];
+      const auto dropped = static_cast<std::uint64_t>(std::count(part.dropped.begin(), part.dropped.end(), true));
+      if (dropped == 0) part.dropped = {};
+      records_ -= dropped;
+      kept_bytes += borders[i].size_bytes();
+      if (kept_bytes < most_bytes) {
+        kept_.push_back(std::move(borders[i]));
+      } else {
+        kept_ = {};
+      }
     }
-    const auto dropped = static_cast<std::uint64_t>(std::count(part.dropped.begin(), part.dropped.end(), true));
-    if (dropped == 0) part.dropped = {};
-    records_ -= dropped;
-    border.shrink_to_fit();
-    kept_bytes += border.size_bytes();
-    if (kept_bytes < most_bytes) {
-      kept_.push_back(std::move(border));
-    } else {
-      kept_ = {};
-    }
-  });
+  }
+}
+
+FrontierBlock SegmentFrontier::drop_interior(const PointLabels& labels, Part& part, bool keeps) const {
+  FrontierBlock block, border;
+  read(part, block);
+  part.dropped.resize(block.size());
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    const FrontierPoint p = block.point(i);
+    const std::uint32_t own = labels[p.id];
+    const auto same = [&](std::uint32_t neighbour) { return labels[neighbour] == own; };
+    part.dropped[i] = own != 0 && std::all_of(p.neighbours.begin(), p.neighbours.end(), same);
+    if (!part.dropped[i] && keeps) border.add(p);
+  }
+  border.shrink_to_fit();
+  return border;
 }
 
 void SegmentFrontier::read(const Part& part, FrontierBlock& block) const {

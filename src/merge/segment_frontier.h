@@ -27,6 +27,7 @@ class SegmentFrontier {
 
   /// Drops the points all of whose neighbours are in the point's own segment. Which of those the tiles appended depends
   /// on how the scan was cut; what is left does not. They stay on disk, being few. Call once, after the last append().
+  /// Several blocks at a time, in parallel.
   /// @param most_bytes  memory that what is left may take: if it does not fit, it is read from disk every time.
   void keep_border(const PointLabels& labels, std::uint64_t most_bytes = 0);
 
@@ -44,6 +45,8 @@ class SegmentFrontier {
     std::vector<bool> dropped;  ///< Empty: none.
   };
   void read(const Part& part, FrontierBlock& block) const;
+  /// What keep_border() does with one part. Returns the border if it is to be kept.
+  FrontierBlock drop_interior(const PointLabels& labels, Part& part, bool keeps) const;
   void for_each_block_on_disk(const std::function<void(const FrontierBlock& block)>& use) const;
 
   std::size_t stride_;
