@@ -173,8 +173,13 @@ SortedPoints TileStore::load_core(std::size_t tile, const std::function<bool(con
     points.positions[kept] = points.positions[i];
     points.ids[kept++] = points.ids[i];
   }
+  const bool few = kept < points.ids.size() / 2;
   points.positions.resize(kept);
   points.ids.resize(kept);
+  if (few) {  // Many tiles' points may be kept together.
+    points.positions.shrink_to_fit();
+    points.ids.shrink_to_fit();
+  }
   return points;
 }
 
