@@ -14,7 +14,7 @@ void SegmentGrowth::add(const TileGrowth& tile) {
     base = static_cast<std::uint32_t>(sizes_.size());
     sizes_.insert(sizes_.end(), tile.sizes.begin(), tile.sizes.end());
     discs_.insert(discs_.end(), tile.discs.begin(), tile.discs.end());
-    for (TileGrowth::Member member : tile.touched) {
+    for (TileGrowth::Touched member : tile.touched) {
       member.component += base;
       touched_.push_back(member);
     }
@@ -28,7 +28,7 @@ void SegmentGrowth::add(const TileGrowth& tile) {
 }
 
 void SegmentGrowth::join_touched() {
-  for (const TileGrowth::Member& link : touched_) {
+  for (const TileGrowth::Touched& link : touched_) {
     std::uint32_t& label = labels_[link.id];
     if (label == 0) {  // It had no link of its own.
       label = link.component;

@@ -42,7 +42,7 @@ class SegmentGrowth {
   PointLabels labels_;  ///< Components, then segments.
   std::vector<std::uint32_t> sizes_;
   std::vector<std::uint64_t> discs_;
-  std::vector<TileGrowth::Member> touched_;
+  std::vector<TileGrowth::Touched> touched_;
   std::vector<TileGrowth::Offer> offers_;
   DisjointSets sets_;
 };

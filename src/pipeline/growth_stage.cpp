@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/memory_budget.h"
+#include "core/pages.h"
 #include "core/process_memory.h"
 #include "pipeline/tile_stage.h"
 #include "pipeline/widen_stage.h"
@@ -16,7 +17,7 @@ GrowthResult grow_segments(io::InputSet& inputs, const GrowthSetup& setup, merge
   merge::SegmentGrowth growth(inputs.points(), setup.parameters.least_component());
   const TileAnalysis analysis = [&](const TilePoints& points,
                                     std::optional<std::span<const PlacedQuery>> queries) -> TileOutcome {
-    std::vector<std::uint8_t> intensities(setup.intensities.empty() ? 0 : points.ids.size());
+    PageVector<std::uint8_t> intensities(setup.intensities.empty() ? 0 : points.ids.size());
     for (std::size_t i = 0; i < intensities.size(); ++i) intensities[i] = setup.intensities[points.ids[i]];
     TileGrowth grown = grow_tile(
         points, intensities, job.survey.lattice, setup.parameters,

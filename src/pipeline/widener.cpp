@@ -61,17 +61,47 @@ std::vector<UnprovenQuery> Widener::answer(std::span<const UnprovenQuery> querie
 /// A fifth of the memory holds what is around the queries, half what is analysed of it, the rest what is on its way
 /// from one to the other.
 void Widener::look_around(std::span<const UnprovenQuery> queries) {
-  std::optional<NearbyPoints> points = read(queries, group_bytes_ / 5 / NearbyPoints::kBytesPerPoint);
-  if (points) {
-    std::vector<UnprovenQuery> compact(queries.begin(), queries.end());
-    sort_by_place(compact);
-    answer_among(*points, compact);
+  const std::uint64_t most_points = group_bytes_ / 5 / NearbyPoints::kBytesPerPoint;
+  if (looks_ahead_) {
+    const std::vector<UnprovenQuery> far = as_far_as_ever(queries);
+    if (const std::optional<NearbyPoints> points = read(far, most_points, Detail::kLeaves))
+      return answer_within(*points, queries, far);
+    looks_ahead_ = false;  // What does not fit here is unlikely to fit elsewhere.
+  }
+  if (const std::optional<NearbyPoints> points = read(queries, most_points, Detail::kPoints)) {
+    answer_within(*points, queries, queries);
   } else if (queries.size() == 1) {
     alone_.push_back(queries[0]);
   } else {
     look_around(queries.first(queries.size() / 2));
     look_around(queries.subspan(queries.size() / 2));
   }
+}
+
+/// The same queries with the greatest reach that they will ever tell, where that is known.
+std::vector<UnprovenQuery> Widener::as_far_as_ever(std::span<const UnprovenQuery> queries) const {
+  std::vector<UnprovenQuery> far(queries.begin(), queries.end());
+  for (UnprovenQuery& query : far)
+    query.reach_steps = std::max(query.reach_steps, std::min(query.most_reach_steps, job_.farthest_steps));
+  return far;
+}
+
+/// Who must look farther does so in the same points, as long as they reach.
+/// @param read  the same queries, with the reaches that the points were read for.
+void Widener::answer_within(const NearbyPoints& points, std::span<const UnprovenQuery> queries,
+                            std::span<const UnprovenQuery> read) {
+  std::unordered_map<std::uint64_t, std::int64_t> reach_of;
+  for (const UnprovenQuery& query : read) reach_of.emplace(query.id, query.reach_steps);
+  std::vector<UnprovenQuery> open(queries.begin(), queries.end());
+  std::vector<UnprovenQuery> beyond = std::exchange(farther_, {});
+  while (!open.empty()) {
+    sort_by_place(open);
+    answer_among(points, open);
+    open.clear();
+    for (const UnprovenQuery& query : std::exchange(farther_, {}))
+      (query.reach_steps <= reach_of.at(query.id) ? open : beyond).push_back(query);
+  }
+  farther_ = std::move(beyond);
 }
 
 void Widener::answer_among(const NearbyPoints& all, std::span<const UnprovenQuery> queries) {
@@ -89,7 +119,7 @@ void Widener::answer_among(const NearbyPoints& all, std::span<const UnprovenQuer
 /// All of the memory for one.
 void Widener::answer_alone(const UnprovenQuery& query) {
   const std::span<const UnprovenQuery> queries(&query, 1);
-  std::optional<NearbyPoints> all = read(queries, job_.memory.points_within(all_bytes_));
+  std::optional<NearbyPoints> all = read(queries, job_.memory.points_within(all_bytes_), Detail::kPoints);
   if (!all) {
     const std::uint64_t among = count_around(query);
     throw BudgetError(
@@ -105,15 +135,13 @@ void Widener::answer_alone(const UnprovenQuery& query) {
 std::uint64_t Widener::count_around(const UnprovenQuery& query) const {
   const tiling::QueryRegions regions = regions_of(std::span(&query, 1));
   std::uint64_t count = 0;
-  LatticePoints no_positions;
-  PointIds no_ids;
   for (std::size_t tile = 0; tile < job_.tiles.tiles.size(); ++tile) {
     if (!regions.touches(job_.tiles.tiles[tile].core)) continue;
     const auto counted = [&](const LatticePoint& p) {
       count += regions.contains(p);
       return false;
     };
-    store_.load_core(tile, counted, no_positions, no_ids, [&](const LatticeBox& box) { return regions.touches(box); });
+    store_.load_core(tile, counted, [&](const LatticeBox& box) { return regions.touches(box); });
   }
   return count;
 }
@@ -135,7 +163,8 @@ void Widener::analyse(TilePoints&& points, std::span<const UnprovenQuery> querie
   farther_.insert(farther_.end(), answered.unproven.begin(), answered.unproven.end());
 }
 
-std::optional<NearbyPoints> Widener::read(std::span<const UnprovenQuery> queries, std::uint64_t most_points) {
+std::optional<NearbyPoints> Widener::read(std::span<const UnprovenQuery> queries, std::uint64_t most_points,
+                                          Detail detail) {
   const tiling::QueryRegions regions = regions_of(queries);
   std::vector<std::size_t> touched;
   for (std::size_t tile = 0; tile < job_.tiles.tiles.size(); ++tile) {
@@ -148,8 +177,8 @@ std::optional<NearbyPoints> Widener::read(std::span<const UnprovenQuery> queries
   std::atomic<std::uint64_t> points{0};
   parallel_for_chunks(lanes, 1, [&](std::size_t, std::size_t) {
     for (std::size_t i = next++; i < touched.size() && points <= most_points; i = next++) {
-      store_.load_core(
-          touched[i], [&](const LatticePoint& p) { return regions.contains(p); }, loaded[i].positions, loaded[i].ids,
+      loaded[i] = store_.load_core(
+          touched[i], [&](const LatticePoint& p) { return detail == Detail::kLeaves || regions.contains(p); },
           [&](const LatticeBox& box) { return regions.touches(box); });
       points += loaded[i].positions.size();
     }

@@ -26,12 +26,19 @@ class Widener {
 
  private:
   void look_around(std::span<const UnprovenQuery> queries);
+  std::vector<UnprovenQuery> as_far_as_ever(std::span<const UnprovenQuery> queries) const;
+  void answer_within(const NearbyPoints& points, std::span<const UnprovenQuery> queries,
+                     std::span<const UnprovenQuery> read);
   void answer_among(const NearbyPoints& all, std::span<const UnprovenQuery> queries);
   void answer_alone(const UnprovenQuery& query);
   void analyse(TilePoints&& points, std::span<const UnprovenQuery> queries);
   std::uint64_t count_around(const UnprovenQuery& query) const;
+  enum class Detail {
+    kPoints,  ///< Those in reach, no others.
+    kLeaves,  ///< And what lies with them in a leaf of a tile file: to look at each costs more than to keep it.
+  };
   /// The points in reach of the queries, or nothing if there are more than that.
-  std::optional<NearbyPoints> read(std::span<const UnprovenQuery> queries, std::uint64_t most_points);
+  std::optional<NearbyPoints> read(std::span<const UnprovenQuery> queries, std::uint64_t most_points, Detail detail);
 
   const TileJob& job_;
   const TileAnalysis& analysis_;
@@ -39,6 +46,7 @@ class Widener {
   std::uint64_t all_bytes_;    ///< There are for points and their analysis.
   std::uint64_t group_bytes_;  ///< That groups take of them: no more than tiles did, which is what was foretold.
   std::uint64_t isolated_ = 0;
+  bool looks_ahead_ = true;             ///< What queries may come to ask for is read with what they ask for.
   std::vector<UnprovenQuery> farther_;  ///< Of the queries being answered.
   std::vector<UnprovenQuery> alone_;    ///< Have more around them than goes with others in memory.
 };

@@ -163,16 +163,24 @@ TilePoints TileStore::load(std::size_t tile) const {
   return impl_->folded(tile, impl_->read(tile));
 }
 
-void TileStore::load_core(std::size_t tile, const std::function<bool(const LatticePoint&)>& keep,
-                          LatticePoints& positions, PointIds& ids,
-                          const std::function<bool(const LatticeBox&)>& near) const {
-  const SortedPoints points = impl_->read(tile, near);
+SortedPoints TileStore::load_core(std::size_t tile, const std::function<bool(const LatticePoint&)>& keep,
+                                  const std::function<bool(const LatticeBox&)>& near) const {
+  SortedPoints points = impl_->read(tile, near);
   const LatticeBox core = impl_->tiles.at(tile).core;
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     if (!core.contains(points.positions[i]) || !keep(points.positions[i])) continue;
-    positions.push_back(points.positions[i]);
-    ids.push_back(points.ids[i]);
+    points.positions[kept] = points.positions[i];
+    points.ids[kept++] = points.ids[i];
   }
+  const bool few = kept < points.ids.size() / 2;
+  points.positions.resize(kept);
+  points.ids.resize(kept);
+  if (few) {  // Many tiles' points may be kept together.
+    points.positions.shrink_to_fit();
+    points.ids.shrink_to_fit();
+  }
+  return points;
 }
 
 std::uint64_t TileStore::points(std::size_t tile) const {

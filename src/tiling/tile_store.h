@@ -10,6 +10,7 @@
 
 #include "core/lattice.h"
 #include "core/tile_points.h"
+#include "tiling/point_grid.h"
 #include "tiling/tile_plan.h"
 
 namespace arris::tiling {
@@ -30,10 +31,10 @@ class TileStore {
   /// Reads a tile back. Throws IoError if its bytes are not those that were written. Exact duplicates are folded;
   /// positions are in Z-order.
   TilePoints load(std::size_t tile) const;
-  /// Points owned by `tile` (inside its core, duplicates included) for which keep(position) holds: appended to the
-  /// outputs, in Z-order. @param near  a box for which this is false holds no such point: that saves looking.
-  void load_core(std::size_t tile, const std::function<bool(const LatticePoint&)>& keep, LatticePoints& positions,
-                 PointIds& ids, const std::function<bool(const LatticeBox&)>& near = {}) const;
+  /// Points owned by `tile` (inside its core, duplicates included) for which keep(position) holds, in Z-order.
+  /// @param near  leaves for whose box this is false are left out.
+  SortedPoints load_core(std::size_t tile, const std::function<bool(const LatticePoint&)>& keep,
+                         const std::function<bool(const LatticeBox&)>& near = {}) const;
   std::uint64_t points(std::size_t tile) const;  ///< Stored points (core and halo) of a built tile; 0 otherwise.
   std::uint64_t bytes_on_disk() const;           ///< Of all built tiles that were not removed.
   /// Deletes the tile's file, if it was built.

@@ -21,6 +21,7 @@ void expect_equal(const NeighbourRows& rows, const Rows& expected) {
     ASSERT_EQ(rows.count(slot), expected[slot].size());
     if (expected[slot].empty()) continue;
     ASSERT_EQ(rows.last(slot), expected[slot].back());
+    for (std::size_t i = 0; i < expected[slot].size(); ++i) ASSERT_EQ(rows.at(slot, i), expected[slot][i]);
   }
 }
 

@@ -235,7 +235,7 @@ RC_GTEST_PROP(SegmentGrowth, HoweverTheCloudIsCut_TheSegmentsAreTheSame, ()) {
 }
 
 TileGrowth tile_with(std::vector<std::uint32_t> sizes, PageVector<TileGrowth::Member> members,
-                     std::vector<TileGrowth::Member> touched = {}, std::vector<TileGrowth::Offer> offers = {}) {
+                     std::vector<TileGrowth::Touched> touched = {}, std::vector<TileGrowth::Offer> offers = {}) {
   TileGrowth tile;
   tile.discs.assign(sizes.size(), 10);
   tile.sizes = std::move(sizes);

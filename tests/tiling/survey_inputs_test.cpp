@@ -151,10 +151,7 @@ void expect_round_trip(io::InputSet& inputs, std::uint64_t max_points) {
   }
   std::vector<bool> seen(expected.size(), false);
   for (std::size_t tile = 0; tile < plan.tiles.size(); ++tile) {
-    LatticePoints owned;
-    PointIds ids;
-    store.load_core(
-        tile, [](const LatticePoint&) { return true; }, owned, ids);
+    const auto [owned, ids] = store.load_core(tile, [](const LatticePoint&) { return true; });
     EXPECT_EQ(owned.size(), plan.tiles[tile].core_points);
     EXPECT_LE(store.points(tile), plan.tiles[tile].covered_points);
     for (std::size_t i = 0; i < owned.size(); ++i) {

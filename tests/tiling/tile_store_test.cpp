@@ -190,12 +190,29 @@ TEST(TileStore, LoadCore_GivesOwnedAndKeptPointsOnly) {
   const LatticeBox core{{0, 0, 0}, {10, 10, 10}};
   OneTile tile({{0, 0, 0}, {9, 9, 9}, {10, 0, 0}, {-1, 0, 0}, {5, 5, 5}, {5, 5, 5}}, core);
   tile.store.build(0);
-  LatticePoints positions{{77, 77, 77}};
-  PointIds ids{77};
-  tile.store.load_core(
-      0, [](const LatticePoint& p) { return p.x > 0; }, positions, ids);
-  EXPECT_EQ(positions, (LatticePoints{{77, 77, 77}, {5, 5, 5}, {5, 5, 5}, {9, 9, 9}}));
-  EXPECT_EQ(ids, (PointIds{77, 4, 5, 1}));
+  const SortedPoints points = tile.store.load_core(0, [](const LatticePoint& p) { return p.x > 0; });
+  EXPECT_EQ(points.positions, (LatticePoints{{5, 5, 5}, {5, 5, 5}, {9, 9, 9}}));
+  EXPECT_EQ(points.ids, (PointIds{4, 5, 1}));
+}
+
+TEST(TileStore, LoadCore_OfLeavesNearby_MissesNothingThatIsNear) {
+  OneTile tile(test::random_cloud(9, 20'000));
+  tile.store.build(0);
+  const SortedPoints all = tile.store.load_core(0, [](const LatticePoint&) { return true; });
+  LatticeBox near;
+  for (std::size_t i = 0; i < 20; ++i) near.include(all.positions[i]);
+  const auto touches = [&](const LatticeBox& box) { return box.intersects(near); };
+  const auto inside = [&](const LatticePoint& p) { return near.contains(p); };
+  const SortedPoints whole = tile.store.load_core(0, inside);
+  const SortedPoints part = tile.store.load_core(0, inside, touches);
+  ASSERT_GE(whole.ids.size(), 20U);
+  EXPECT_EQ(part.positions, whole.positions);
+  EXPECT_EQ(part.ids, whole.ids);
+  EXPECT_LT(tile.store
+                .load_core(
+                    0, [](const LatticePoint&) { return true; }, touches)
+                .ids.size(),
+            all.ids.size());
 }
 
 TEST(TileStore, EveryBitFlip_IsDetected) {

@@ -55,12 +55,13 @@ class NeighbourRows {
     }
     return list;
   }
-  /// Of a row that is not empty.
-  std::uint32_t last(std::uint32_t slot) const {
-    const std::size_t at = count(slot) - 1;
-    if ((counts_[slot] & kFar) != 0) return far_row(slot)[at];
-    return slot + static_cast<std::uint32_t>(std::int32_t{near_[std::size_t{slot} * most_ + at]});
+  /// @param i  less than the count.
+  std::uint32_t at(std::uint32_t slot, std::size_t i) const {
+    if ((counts_[slot] & kFar) != 0) return far_row(slot)[i];
+    return slot + static_cast<std::uint32_t>(std::int32_t{near_[std::size_t{slot} * most_ + i]});
   }
+  /// Of a row that is not empty.
+  std::uint32_t last(std::uint32_t slot) const { return at(slot, count(slot) - 1); }
 
   class Writer;
 

@@ -29,6 +29,11 @@ namespace arris {
 struct TileGrowth {
   /// A growing point and the component it is in.
   struct Member {
+    std::uint32_t id = 0;
+    std::uint32_t component = 0;
+  };
+  /// The same of a point of another tile.
+  struct Touched {
     std::uint64_t id = 0;
     std::uint32_t component = 0;
     std::uint32_t disc = 0;  ///< d^2 / m, d being the distance of the last of m neighbours, steps^2; see discs.
@@ -42,11 +47,11 @@ struct TileGrowth {
   };
 
   PageVector<Member> members;        ///< Queries.
-  std::vector<Member> touched;       ///< Growing points that are no queries, linked with a query.
+  std::vector<Touched> touched;      ///< Growing points that are no queries, linked with a query.
   std::vector<Offer> offers;         ///< To any points.
   std::vector<std::uint32_t> sizes;  ///< Queries in each component.
-  /// Sum over the queries of each component of Member::disc, rounded down and at most 2^32 - 1 each: times pi, about
-  /// the component's area.
+  /// Sum over the queries of each component of what Touched::disc is, rounded down and at most 2^32 - 1 each: times pi,
+  /// about the component's area.
   std::vector<std::uint64_t> discs;
   std::vector<UnprovenQuery> unproven;  ///< Ascending ids; they left no trace in the rest.
   std::uint64_t isolated = 0;           ///< Queries without a normal.

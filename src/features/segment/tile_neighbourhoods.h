@@ -38,11 +38,15 @@ class TileNeighbourhoods {
   /// Computes the slots whose state is kUnasked and whose `wanted` is not 0.
   void compute(std::span<const std::uint8_t> wanted);
 
+  std::size_t size() const { return states_.size(); }
   ShapeState state(std::uint32_t slot) const { return states_[slot]; }
   const PointShape& shape(std::uint32_t slot) const { return shapes_[slot]; }
+  /// Gives their memory up: no shape may be asked for any more.
+  void forget_shapes() { PageVector<PointShape>().swap(shapes_); }
   /// By (distance, id).
   NeighbourList neighbours(std::uint32_t slot) const { return rows_[slot]; }
   std::size_t count(std::uint32_t slot) const { return rows_.count(slot); }
+  std::uint32_t neighbour(std::uint32_t slot, std::size_t i) const { return rows_.at(slot, i); }
   std::uint32_t last_neighbour(std::uint32_t slot) const { return rows_.last(slot); }  ///< If there is any.
   /// By the rule and what is in sight; at most that if it is hardly anything. More in sight may make it more.
   std::size_t wanted(std::uint32_t slot) const { return wanted_[slot]; }

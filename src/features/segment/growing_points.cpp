@@ -1,0 +1,54 @@
+#include "features/segment/growing_points.h"
+
+#include <cmath>
+
+#include "core/parallel.h"
+
+namespace arris {
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+
+/// Whether a share of its neighbours is like the point.
+class Agreement {
+ public:
+  Agreement(const TileNeighbourhoods& points, const Likeness& likeness, double share)
+      : points_(points), likeness_(likeness), share_(share) {}
+
+  /// Most points agree with the first that are looked at: neighbours are read one by one.
+  bool operator()(std::uint32_t slot) const {
+    const std::size_t count = points_.count(slot);
+    const auto needed = static_cast<std::size_t>(std::ceil(share_ * static_cast<double>(count)));
+    std::size_t like = 0;
+    for (std::size_t i = 0; i < count && like < needed; ++i) {
+      const std::uint32_t neighbour = points_.neighbour(slot, i);
+      like += points_.state(neighbour) == ShapeState::kShaped && likeness_.alike(slot, neighbour);
+    }
+    return like >= needed;
+  }
+
+ private:
+  const TileNeighbourhoods& points_;
+  const Likeness& likeness_;
+  double share_;
+};
+
+}  // namespace
+
+PageVector<std::uint8_t> growing_points(const TileNeighbourhoods& points, const QueryRings& rings,
+                                        const Likeness& likeness, const SegmentParameters& parameters) {
+  const Agreement agrees(points, likeness, parameters.least_agreement());
+  const auto most_variation = static_cast<float>(parameters.curvature);
+  PageVector<std::uint8_t> grows(points.size(), 0);
+  parallel_for_chunks(grows.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const auto slot = static_cast<std::uint32_t>(i);
+      if (!rings.within(slot, 1) || points.state(slot) != ShapeState::kShaped) continue;
+      if (!(points.shape(slot).variation < most_variation)) continue;
+      grows[slot] = parameters.published || agrees(slot);
+    }
+  });
+  return grows;
+}
+
+}  // namespace arris
