@@ -14,7 +14,7 @@ namespace arris::pipeline {
 namespace {
 
 constexpr std::size_t kGrain = 64 * 1024;
-constexpr double kClusterBytes = 260.0;
+constexpr double kClusterBytes = 280.0;
 constexpr double kClusterHistogramBytes = 400.0;
 
 class Clustering {

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/pages.h"
+#include "core/process_memory.h"
 #include "core/text.h"
 #include "features/supervoxel/voxel_normals.h"
 #include "pipeline/voxel_memory.h"
@@ -51,6 +52,7 @@ void VoxelTileWalk::plan(std::uint64_t kept_bytes) {
   tiles.halo_voxels = request_.scale.halo_voxels();
   plan_ = tiling::plan_voxel_tiles(store_.index(), tiles);
   loaded_.reset();
+  trim_heap();
   const auto tile_bytes = static_cast<std::uint64_t>(each * static_cast<double>(largest_tile_voxels()));
   // What larger tiles have left must not be resident beside what is kept now.
   if (spare_pages_bytes() > tile_bytes) drop_spare_pages();
@@ -97,7 +99,10 @@ void VoxelTileWalk::for_each(TileView view, const std::function<void(const Loade
     use(*loaded_);
     progress_.advance(tile.core_points);
   }
-  if (several) drop();
+  if (several) {
+    drop();
+    trim_heap();  // Tiles of all sizes leave holes.
+  }
   if (!first_normals) return;
   normals_->finish();
   normals_known_ = true;
