@@ -38,7 +38,7 @@ struct FindLeast {
         Bits below{};
         for (std::size_t i = 0; i < n; ++i) {
           const F value = simd::load<F>(trials[trial][i].data() + lane);
-          rows[medians.first() + i] = (Bits)value;
+          rows[i] = (Bits)value;
           below = value < medians.least() ? below + 1 : below;
         }
         medians.add(static_cast<std::int32_t>(trial), static_cast<std::int32_t>(n / 2) - below, rows);

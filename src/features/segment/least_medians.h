@@ -21,15 +21,16 @@ class LeastMedians {
   static constexpr std::size_t kLanes = sizeof(F) / sizeof(float);
   /// Distances as bits: not negative, they sort as their bits do.
   using Bits = typename simd::Wide<sizeof(F)>::Int;
-  /// Those of row i are at [first() + i]; what is before and after them brings the median to the middle.
+  /// What is behind the n distances brings the median to the middle. (Behind: nothing may be read from where the same
+  /// place of a page has just been written, and points are read in the order in which distances are written.)
   using Rows = std::array<Bits, N>;
 
   explicit LeastMedians(std::size_t n) : n_(n) { pad(waiting_rows_); }
 
-  std::size_t first() const { return N / 2 - n_ / 2; }
   ARRIS_ALWAYS_INLINE void pad(Rows& rows) const {
-    for (std::size_t i = 0; i < first(); ++i) rows[i] = Bits{};
-    for (std::size_t i = first() + n_; i < N; ++i) rows[i] = Bits{} + std::numeric_limits<std::int32_t>::max();
+    const std::size_t below = N / 2 - n_ / 2;
+    for (std::size_t i = n_; i < N; ++i)
+      rows[i] = Bits{} + (i < n_ + below ? 0 : std::numeric_limits<std::int32_t>::max());
   }
 
   /// May be above the least so far, of rows that wait.
@@ -76,7 +77,7 @@ class LeastMedians {
     least_ = candidate < least_ ? candidate : least_;
   }
   ARRIS_ALWAYS_INLINE void wait(std::int32_t trial, std::size_t lane, const Rows& rows) {
-    for (std::size_t i = first(); i < first() + n_; ++i) waiting_rows_[i][waiting_] = rows[i][lane];
+    for (std::size_t i = 0; i < n_; ++i) waiting_rows_[i][waiting_] = rows[i][lane];
     of_[waiting_++] = {trial, static_cast<std::int32_t>(lane)};
     if (waiting_ == kLanes) settle();
   }

@@ -98,7 +98,7 @@ ARRIS_ALWAYS_INLINE MedianPlane<F> median_plane(const MedianPlan& plan, std::siz
         const TriplePlane<F>& plane = planes[k];
         const F d = plane.nx * x[i] + plane.ny * y[i] + plane.nz * z[i] - plane.offset;
         const Bits distance = (Bits)d & 0x7fffffff;
-        points.distances[k][medians.first() + i] = distance;
+        points.distances[k][i] = distance;
         below[k] = distance < limits[k] ? below[k] + 1 : below[k];  // Neither is negative.
       }
     }
