@@ -20,7 +20,7 @@ TEST(OutputFile, Commit_MakesExactBytesAppear) {
   std::string expected;
   io::OutputFile file(folder / "a", false);
   for (std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{1000}, std::size_t{1} << 20,
-                           (std::size_t{1} << 20) + 1, std::size_t{3} << 20, std::size_t{17}}) {
+                           (std::size_t{1} << 20) + 1, std::size_t{3} << 20, std::size_t{9} << 20, std::size_t{17}}) {
     const std::string part(size, static_cast<char>('a' + size % 26));
     file.write(std::string_view(part));
     expected += part;
