@@ -21,7 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
-constexpr std::uint64_t kWritebackBytes = std::uint64_t{8} << 20;
 
 [[noreturn]] void fail(const fs::path& path, std::string_view what, int error, std::uint64_t size_bytes) {
   const char* advice = error == ENOSPC || error == EDQUOT ? "; free some space or choose another folder"
@@ -102,18 +101,7 @@ void OutputFile::write(std::span<const std::byte> bytes) {
     buffered_ += bytes.size();
   }
   size_bytes_ += bytes.size();
-  begin_writeback();
-}
-
-/// What commit() waits for is little then. Only a hint: commit() syncs, and tells what goes wrong.
-void OutputFile::begin_writeback() {
-  const std::uint64_t written = size_bytes_ - buffered_;
-  if (written - writeback_bytes_ < kWritebackBytes) return;
-#if defined(SYNC_FILE_RANGE_WRITE)
-  static_cast<void>(::sync_file_range(descriptor_, static_cast<off_t>(writeback_bytes_),
-                                      static_cast<off_t>(written - writeback_bytes_), SYNC_FILE_RANGE_WRITE));
-#endif
-  writeback_bytes_ = written;
+  writeback_.written(descriptor_, size_bytes_ - buffered_);
 }
 
 void OutputFile::write(std::string_view text) {

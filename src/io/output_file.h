@@ -8,6 +8,8 @@
 #include <span>
 #include <string_view>
 
+#include "core/writeback.h"
+
 namespace arris::io {
 
 /// Buffered sequential writer to "<final>.partial-<pid>", renamed by commit(). Every system call is checked; errors
@@ -33,14 +35,13 @@ class OutputFile {
 
  private:
   void flush();
-  void begin_writeback();
 
   std::filesystem::path final_path_;
   std::filesystem::path partial_path_;
   bool overwrite_;
   int descriptor_ = -1;
   std::uint64_t size_bytes_ = 0;
-  std::uint64_t writeback_bytes_ = 0;  ///< The system was asked to bring so many to disk.
+  Writeback writeback_{std::uint64_t{8} << 20};
   std::size_t buffered_ = 0;
   std::unique_ptr<std::byte[]> buffer_;
 };

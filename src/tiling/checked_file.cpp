@@ -188,6 +188,7 @@ void HashingSink::write_out(const char* data, std::size_t size) {
     size -= static_cast<std::size_t>(wrote);
     written_bytes_ += static_cast<std::uint64_t>(wrote);
   }
+  writeback_.written(descriptor_, written_bytes_);
 }
 
 void HashingSink::flush_buffer() {

@@ -8,6 +8,8 @@
 #include <span>
 #include <streambuf>
 
+#include "core/writeback.h"
+
 namespace arris::tiling {
 
 /// IoError: "<path>: <what> failed: <reason>", and for a full disk how much is free and (if not 0) how much more is
@@ -109,6 +111,7 @@ class HashingSink : public std::streambuf {
   int descriptor_ = -1;
   bool committed_ = false;
   std::uint64_t written_bytes_ = 0;
+  Writeback writeback_{std::uint64_t{1} << 20};
   Hasher hasher_;
   std::unique_ptr<char[]> buffer_;
 };
