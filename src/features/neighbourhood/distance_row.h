@@ -11,7 +11,7 @@ namespace arris {
 /// Squared distances, the point's own 0 among them, and as many more of the nearest as were found on the way; the rest
 /// of the row is filled with what is greater than any.
 struct DistanceRow {
-  static constexpr bool kOfPacked = false;
+  static constexpr bool kOfPacked = false;  ///< Distances need no slots.
   static constexpr std::size_t kLength = 32;
   static constexpr std::size_t kMostNeighbours = kLength - 1;
 
