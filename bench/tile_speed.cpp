@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "stage_clock.h"
 #include "tiling/partition.h"
 #include "tiling/survey.h"
@@ -28,6 +29,7 @@ class Silent : public ProgressSink {
 
 int run(const std::filesystem::path& folder, std::uint64_t tile_points, double halo,
         const std::vector<std::filesystem::path>& paths) {
+  const ThreadLimit one_thread(1);
   io::InputSet inputs(paths);
   Silent silent;
   bench::StageClock clock;

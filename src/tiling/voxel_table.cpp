@@ -3,13 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/avx2.h"
 #include "tiling/voxel_hash.h"
-
-#if defined(__GNUC__) && defined(__x86_64__)
-#define ARRIS_AVX2_BATCHES 1
-#else
-#define ARRIS_AVX2_BATCHES 0
-#endif
 
 namespace arris::tiling {
 namespace {
@@ -40,9 +35,8 @@ struct VoxelTable::Batch {
       offset_y[i] = static_cast<std::uint32_t>(positions[i].y);
       offset_z[i] = static_cast<std::uint32_t>(positions[i].z);
     }
-#if ARRIS_AVX2_BATCHES
-    static const bool avx2 = __builtin_cpu_supports("avx2");
-    if (avx2) return divide_avx2(grid);
+#if ARRIS_AVX2_VERSIONS
+    if (may_use_avx2()) return divide_avx2(grid);
 #endif
     divide(grid);
   }
@@ -63,7 +57,7 @@ struct VoxelTable::Batch {
       offset[i] -= grid.low_corner(voxel[i]);
     }
   }
-#if ARRIS_AVX2_BATCHES
+#if ARRIS_AVX2_VERSIONS
   __attribute__((target("avx2"))) void divide_avx2(const VoxelGrid& grid) {
     divide(grid);
   }
