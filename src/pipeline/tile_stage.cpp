@@ -19,6 +19,8 @@
 namespace arris::pipeline {
 namespace {
 
+constexpr std::size_t kTilesPerTrim = 16;
+
 /// Progress of tiles that finish during the partition is held back until its own phase begins.
 class TileProgress {
  public:
@@ -99,6 +101,7 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const T
   TileStageResult stage;
   stage.unproven.assign(job.tiles.tiles.size(), 0);
   std::atomic<std::uint64_t> isolated{0};
+  std::atomic<std::size_t> analysed{0};
   TileProgress tile_progress(progress);
   DiskKeeper disk(job, folder, store);
   // While it is built a tile takes less than it has reserved: the next analysis may have the pages of the one before.
@@ -122,7 +125,8 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const T
     disk.analysed(tile, outcome.unproven);
     isolated += outcome.isolated;
     trim_spare_pages(spare_bytes);
-    trim_heap();
+    // What planning has left goes with the first; after every tile the heap would be taken from the system anew.
+    if (analysed++ % kTilesPerTrim == 0) trim_heap();
     tile_progress.done(planned.core_points);
   };
 
