@@ -1,6 +1,6 @@
 /// @file The streaming passes alone: survey, partition and tile files while points are routed, and reading them back.
 /// Usage: tile_speed FOLDER TILE_POINTS HALO INPUT...     HALO in data units; the folder must exist and be empty
-/// One thread. Prints CPU and wall seconds of each pass and points per second of the input.
+/// One thread, whatever the machine has. Prints CPU and wall seconds of each pass and points per second of the input.
 
 #include <fmt/format.h>
 
