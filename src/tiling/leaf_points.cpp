@@ -55,17 +55,16 @@ const std::array<std::uint16_t, kVoxels>& voxels_in_z_order() {
 /// Whole arrays: the loop that spreads bits vectorises.
 __attribute__((always_inline)) inline void find_keys(const FixedPosition* fixed, int shift,
                                                      std::span<std::uint64_t> keys) {
-  std::array<std::uint64_t, kBatch> x{}, y{}, z{}, key{};
+  std::array<std::uint32_t, kBatch> x{}, y{}, z{};
+  std::array<std::uint64_t, kBatch> key{};
   for (std::size_t begin = 0; begin < keys.size(); begin += kBatch) {
     const std::size_t count = std::min(kBatch, keys.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
-      x[i] = std::uint64_t{fixed[begin + i].x()} >> shift;
-      y[i] = std::uint64_t{fixed[begin + i].y()} >> shift;
-      z[i] = std::uint64_t{fixed[begin + i].z()} >> shift;
+      x[i] = std::uint32_t{fixed[begin + i].x()} >> shift;
+      y[i] = std::uint32_t{fixed[begin + i].y()} >> shift;
+      z[i] = std::uint32_t{fixed[begin + i].z()} >> shift;
     }
-    for (std::size_t i = 0; i < kBatch; ++i) {
-      key[i] = spread_bits(x[i]) << 2 | spread_bits(y[i]) << 1 | spread_bits(z[i]);
-    }
+    for (std::size_t i = 0; i < kBatch; ++i) key[i] = z_key(x[i], y[i], z[i]);
     std::copy_n(key.begin(), count, keys.begin() + static_cast<std::ptrdiff_t>(begin));
   }
 }

@@ -43,15 +43,16 @@ Ids shuffled_ids(std::size_t count, std::uint64_t seed) {
   return ids;
 }
 
-/// `wide` points in a cube of 2^12 steps make voxels large; the others are in one voxel among them, on a surface.
+/// `wide` points in a cube of 2^12 steps, which one leaf can hold, make voxels large; the others are on a surface in
+/// the lowest of these voxels.
 Points cloud_with_full_voxel(std::size_t wide, std::size_t full, std::uint32_t side) {
   std::mt19937_64 random(full);
   Points points;
   const auto below = [&](std::uint64_t n) { return static_cast<std::int32_t>(random() % n); };
-  for (std::size_t i = 0; i < wide; ++i) points.push_back({below(4096) - 2048, below(4096) - 2048, below(4096) - 2048});
+  for (std::size_t i = 0; i < wide; ++i) points.push_back({below(4096) - 4096, below(4096), below(4096)});
   for (std::size_t i = 0; i < full; ++i) {
     const std::int32_t x = below(side), y = below(side);
-    points.push_back({x, y, (x + y) / 2});
+    points.push_back({x - 4096, y, (x + y) / 2});
   }
   return points;
 }
@@ -64,7 +65,7 @@ TEST_P(FullVoxel, OfAnyNumberOfPoints_ComesBackInZOrder) {
 }
 
 // Around the numbers where another way of sorting begins; of the last, 65 537 and more are in one voxel.
-INSTANTIATE_TEST_SUITE_P(Sizes, FullVoxel, testing::Values(1, 31, 32, 33, 65, 600, 20'000, 150'000));
+INSTANTIATE_TEST_SUITE_P(Sizes, FullVoxel, testing::Values(1, 24, 28, 31, 32, 33, 65, 600, 20'000, 150'000));
 
 TEST(LeafPoints, FewPositionsOfManyPoints_AreOrderedById) {
   for (const std::size_t full : {20U, 40U, 5000U, 70'000U}) {
