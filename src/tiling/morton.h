@@ -33,17 +33,6 @@ inline std::uint64_t spread_bits(std::uint64_t v) {
   return v;
 }
 
-/// Inverse of spread_bits; other bits of v are ignored.
-inline std::uint64_t gather_bits(std::uint64_t v) {
-  v &= 0x1249249249249249U;
-  v = (v | v >> 2) & 0x10c30c30c30c30c3U;
-  v = (v | v >> 4) & 0x100f00f00f00f00fU;
-  v = (v | v >> 8) & 0x1f0000ff0000ffU;
-  v = (v | v >> 16) & 0x1f00000000ffffU;
-  v = (v | v >> 32) & 0x1fffffU;
-  return v;
-}
-
 /// Z-order key of three coordinates of 21 bits.
 inline std::uint64_t z_key(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   return spread_bits(x) << 2 | spread_bits(y) << 1 | spread_bits(z);

@@ -318,8 +318,9 @@ RC_GTEST_PROP(ZOrder, Comparison_AgreesWithInterleavedBits,
   };
   RC_ASSERT(z_order_less(a, b) == (key(a) < key(b)));
   RC_ASSERT(z_order_less(b, a) == (key(b) < key(a)));
-  RC_ASSERT(gather_bits(spread_bits(static_cast<std::uint32_t>(x) & 0x1fffffU)) ==
-            (static_cast<std::uint32_t>(x) & 0x1fffffU));
+  std::uint64_t spread = 0;
+  for (int bit = 0; bit < 21; ++bit) spread |= std::uint64_t{static_cast<std::uint32_t>(x) >> bit & 1U} << 3 * bit;
+  RC_ASSERT(spread_bits(static_cast<std::uint32_t>(x)) == spread);
 }
 
 }  // namespace
