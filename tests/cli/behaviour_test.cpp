@@ -228,8 +228,9 @@ TEST(Behaviour, Interrupt_ExitsWith130AndLeavesNothing) {
   std::filesystem::create_directory(folder / "temp");
   const ProcessResult run = run_arris(
       {"extract", folder / "in.las", "-o", folder / "out.las", "--temp-dir", folder / "temp", "--tile-points", "20000"},
-      [](int pid) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(700));
+      [&](int pid) {  // Once it has begun to write; how long a program takes to start differs from machine to machine.
+        for (int waited_ms = 0; waited_ms < 60000 && entries(folder / "temp") == 0; ++waited_ms)
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
         kill(pid, SIGINT);
       });
   EXPECT_EQ(run.exit_code, 130) << run.err;
