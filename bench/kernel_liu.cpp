@@ -28,7 +28,7 @@ double cpu_seconds() {
 }
 
 /// Equal on every processor and with every compiler setting, or something is wrong.
-std::uint64_t checksum(const std::vector<arris::ContourRecord>& records) {
+std::uint64_t checksum(const arris::ContourRecords& records) {
   std::uint64_t sum = 0;
   for (const arris::ContourRecord& r : records) {
     for (const std::uint64_t part : {r.id, std::uint64_t{r.classes}, std::uint64_t{r.votes},

@@ -1,9 +1,11 @@
 /// @file The streaming passes alone: survey, partition and tile files while points are routed, and reading them back.
-/// Usage: tile_speed FOLDER TILE_POINTS HALO INPUT...     HALO in data units; the folder must exist and be empty
-/// One thread, whatever the machine has. Prints CPU and wall seconds of each pass and points per second of the input.
+/// Usage: tile_speed THREADS FOLDER TILE_POINTS HALO INPUT...
+/// HALO in data units; the folder must exist and be empty. Prints CPU and wall seconds of each pass and points of the
+/// input per second of either.
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <vector>
@@ -27,13 +29,18 @@ class Silent : public ProgressSink {
   void note(std::string_view) override {}
 };
 
-int run(const std::filesystem::path& folder, std::uint64_t tile_points, double halo,
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+int run(int threads, const std::filesystem::path& folder, std::uint64_t tile_points, double halo,
         const std::vector<std::filesystem::path>& paths) {
-  const ThreadLimit one_thread(1);
+  const ThreadLimit limit(threads);
   io::InputSet inputs(paths);
   Silent silent;
   bench::StageClock clock;
   const double cpu_begin = bench::cpu_seconds();
+  const auto begin = std::chrono::steady_clock::now();
   const tiling::Survey survey = tiling::survey_inputs(inputs, {}, silent, CancelToken());
   clock.end_stage("survey");
   tiling::PlanRequest request;
@@ -42,31 +49,41 @@ int run(const std::filesystem::path& folder, std::uint64_t tile_points, double h
   request.halo = [&](double) { return halo; };
   const tiling::TilePlan plan = tiling::plan_tiles(survey, request);
   tiling::TileStore store(folder, survey.lattice, plan, "");
-  tiling::partition_points(
-      inputs, survey, plan, {folder}, [&](std::size_t tile) { store.build(tile); }, silent, CancelToken());
+  if (threads == 1) {
+    tiling::partition_points(
+        inputs, survey, plan, {folder}, [&](std::size_t tile) { store.build(tile); }, silent, CancelToken());
+  } else {  // As runs do: tiles are built while points are still being routed.
+    BackgroundTasks builders(threads);
+    tiling::partition_points(
+        inputs, survey, plan, {folder}, [&](std::size_t tile) { builders.run([&, tile] { store.build(tile); }); },
+        silent, CancelToken());
+    builders.wait();
+  }
   clock.end_stage("partition");
-  const double cpu = bench::cpu_seconds() - cpu_begin;
+  const double cpu = bench::cpu_seconds() - cpu_begin, wall = seconds_since(begin);
   std::size_t loaded = 0;
   for (std::size_t tile = 0; tile < plan.tiles.size(); ++tile) loaded += store.load(tile).positions.size();
   clock.end_stage("load");
   const auto millions = 1e-6 * static_cast<double>(survey.points());
   fmt::print(
       "points {}, tiles {}, stored {} ({:.2f} copies), {:.1f} bytes each on disk; survey, partition and tile files: "
-      "{:.1f} M points per CPU s\n",
+      "{:.1f} M points per CPU s, {:.1f} per s with {} threads\n",
       survey.points(), plan.tiles.size(), loaded, 1e-6 * static_cast<double>(loaded) / millions,
-      static_cast<double>(store.bytes_on_disk()) / static_cast<double>(loaded), millions / cpu);
+      static_cast<double>(store.bytes_on_disk()) / static_cast<double>(loaded), millions / cpu, millions / wall,
+      threads);
   return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 5) {
-    std::fprintf(stderr, "usage: tile_speed FOLDER TILE_POINTS HALO INPUT...\n");
+  if (argc < 6 || std::atoi(argv[1]) < 1) {
+    std::fprintf(stderr, "usage: tile_speed THREADS FOLDER TILE_POINTS HALO INPUT...\n");
     return 2;
   }
   try {
-    return run(argv[1], std::strtoull(argv[2], nullptr, 10), std::atof(argv[3]), {argv + 4, argv + argc});
+    return run(std::atoi(argv[1]), argv[2], std::strtoull(argv[3], nullptr, 10), std::atof(argv[4]),
+               {argv + 5, argv + argc});
   } catch (const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return error.exit_code();

@@ -73,9 +73,13 @@ class SparePages {
     const std::lock_guard lock(mutex_);
     const bool large = size >= 2 * kLargePage;
     if (const std::uintptr_t begin = take_stretch(size, large ? kLargePage : kPage)) return begin;
-    const std::uintptr_t begin = large ? map_large(size) : map(size);
     // What does not fit must not be resident beside what is made anew.
-    if (!large || !gather(begin, size / kLargePage)) drop_all();
+    if (!large) {
+      drop_all();
+      return begin_of_large_pages(size);
+    }
+    const std::uintptr_t begin = map_large(size);
+    if (!gather(begin, size / kLargePage)) drop_all();
     return begin;
   }
   void keep(const Stretch& stretch) noexcept {
@@ -110,6 +114,13 @@ class SparePages {
     std::size_t sum = 0;
     for (const Stretch& stretch : spare_) sum += stretch.size_bytes;
     return sum;
+  }
+  /// Smaller blocks share large pages: what is left of the last one is spare.
+  std::uintptr_t begin_of_large_pages(std::size_t size) {
+    const std::size_t mapped = whole(size, kLargePage);
+    const std::uintptr_t begin = map_large(mapped);
+    if (mapped > size) insert({begin + size, mapped - size});
+    return begin;
   }
   /// From the smallest stretch that is long enough, its beginning on a multiple of `unit`; 0 if there is none.
   std::uintptr_t take_stretch(std::size_t size, std::size_t unit) {

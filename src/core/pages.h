@@ -12,9 +12,9 @@ namespace arris {
 constexpr std::size_t kLeastPagesBytes = std::size_t{128} << 10;
 
 /// At least kLeastPagesBytes, not initialised: what was returned before, or straight from the system, which makes pages
-/// when they are written to, large ones where it has them. Where nothing that was returned is long enough large pages
-/// from several places are put under one address, as far as they go, so that hardly more is resident than at some time
-/// was in use. Thread-safe. Throws std::bad_alloc.
+/// when they are written to, large ones where it has them: blocks of less than two share one, the rest of which is
+/// spare. Where nothing that was returned is long enough large pages from several places are put under one address, as
+/// far as they go, so that hardly more is resident than at some time was in use. Thread-safe. Throws std::bad_alloc.
 void* take_pages(std::size_t size_bytes);
 /// Keeps the pages for the next who takes some: to have the system clear them again costs more than most uses.
 /// @param size_bytes  as taken.
@@ -23,7 +23,7 @@ void return_pages(void* pages, std::size_t size_bytes) noexcept;
 void drop_spare_pages() noexcept;
 /// Gives back what is more than that.
 void trim_spare_pages(std::size_t most_bytes) noexcept;
-/// What was returned and not taken again.
+/// What was returned and not taken again, and the rest of shared large pages.
 std::size_t spare_pages_bytes() noexcept;
 
 /// Takes large blocks in pages, and leaves elements that are made without a value as they are, so that resize() writes

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/lattice.h"
+#include "core/pages.h"
 
 namespace arris::merge {
 
@@ -37,8 +38,8 @@ class FrontierBlock {
 
  private:
   static constexpr std::size_t kHeadWords = 5;  ///< id, x, y, z, number of neighbours.
-  std::vector<std::uint32_t> words_;
-  std::vector<std::uint32_t> begins_;
+  PageVector<std::uint32_t> words_;
+  PageVector<std::uint32_t> begins_;
 };
 
 /// Appends the bytes of records to `out`. Ids that were among the last few hundred different ones take a byte, others

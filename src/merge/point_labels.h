@@ -2,12 +2,13 @@
 /// @file One 32-bit label for every point of the scan, in memory.
 
 #include <cstdint>
-#include <vector>
+
+#include "core/pages.h"
 
 namespace arris::merge {
 
 /// Indexed by global id; 0: none. Different ids may be written from different threads.
-using PointLabels = std::vector<std::uint32_t>;
+using PointLabels = PageVector<std::uint32_t>;
 constexpr std::uint64_t kLabelBytesPerPoint = 4;
 
 }  // namespace arris::merge

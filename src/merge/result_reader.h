@@ -1,9 +1,8 @@
 #pragma once
 /// @file Reads the combined results of a spool point by point, in the order of ids.
 
-#include <vector>
-
 #include "core/error.h"
+#include "core/pages.h"
 #include "merge/result_spool.h"
 
 namespace arris::merge {
@@ -28,7 +27,7 @@ class ResultReader {
  private:
   ResultSpool& spool_;
   std::size_t bucket_index_ = static_cast<std::size_t>(-1);
-  std::vector<PointResult> bucket_;
+  PageVector<PointResult> bucket_;
 };
 
 }  // namespace arris::merge

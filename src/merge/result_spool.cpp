@@ -44,9 +44,9 @@ std::filesystem::path ResultSpool::bucket_path(std::size_t bucket) const {
   return folder_ / fmt::format("{}.results", bucket);
 }
 
-void ResultSpool::append(std::vector<ContourRecord> records) {
+void ResultSpool::append(ContourRecords records) {
   std::sort(records.begin(), records.end(), [](const ContourRecord& a, const ContourRecord& b) { return a.id < b.id; });
-  std::vector<DiskRecord> run;
+  PageVector<DiskRecord> run;
   for (std::size_t begin = 0; begin < records.size();) {
     const std::size_t bucket = static_cast<std::size_t>(records[begin].id / kBucketPoints);
     if (records[begin].id >= points_) throw IoError("a tile produced a result for a point that does not exist");
@@ -77,7 +77,7 @@ void ResultSpool::append(std::vector<ContourRecord> records) {
   }
 }
 
-void ResultSpool::load(std::size_t bucket, std::vector<PointResult>& results) {
+void ResultSpool::load(std::size_t bucket, PageVector<PointResult>& results) {
   const std::uint64_t first_id = bucket * kBucketPoints;
   results.assign(std::min(kBucketPoints, points_ - first_id), PointResult{});
   const Bucket& expected = buckets_.at(bucket);
@@ -86,7 +86,7 @@ void ResultSpool::load(std::size_t bucket, std::vector<PointResult>& results) {
   const FileDescriptor file = FileDescriptor::open(path, O_RDONLY);
   std::uint64_t records = 0;
   std::uint64_t sum = 0;
-  std::vector<DiskRecord> block(32 * 1024);
+  PageVector<DiskRecord> block(32 * 1024);
   for (;;) {
     const std::size_t bytes = file.read_some(std::as_writable_bytes(std::span(block)));
     const std::span<const DiskRecord> read(block.data(), bytes / sizeof(DiskRecord));

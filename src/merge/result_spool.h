@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/pages.h"
 #include "features/contour/contour_record.h"
 
 namespace arris::merge {
@@ -38,12 +39,12 @@ class ResultSpool {
   ResultSpool(std::filesystem::path folder, std::uint64_t points);
 
   /// Adds records in any order. Thread-safe. Throws IoError.
-  void append(std::vector<ContourRecord> records);
+  void append(ContourRecords records);
 
   std::size_t buckets() const { return buckets_.size(); }
   /// Combines a bucket into `results`, indexed by id - bucket * kBucketPoints, and removes its file. Call once per
   /// bucket, after the last append. Throws IoError if the file is not what was written.
-  void load(std::size_t bucket, std::vector<PointResult>& results);
+  void load(std::size_t bucket, PageVector<PointResult>& results);
 
   std::uint64_t bytes_on_disk() const { return bytes_on_disk_; }
 

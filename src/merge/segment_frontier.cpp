@@ -68,7 +68,7 @@ FrontierBlock SegmentFrontier::drop_interior(const PointLabels& labels, Part& pa
 }
 
 void SegmentFrontier::read(const Part& part, FrontierBlock& block) const {
-  std::vector<std::byte> bytes(part.bytes);
+  PageVector<std::byte> bytes(part.bytes);
   file_.read_at(part.offset, bytes);
   if (!decode_frontier(bytes, part.records, part.dropped, block)) file_.throw_damaged();
 }

@@ -89,12 +89,15 @@ struct CellCounts::Impl {
   }
 
   void coarsen() {
-    const std::unique_ptr<CellTree> fine = std::exchange(tree, std::make_unique<CellTree>(0));
+    std::vector<CellLeaf*> fine;
+    tree->stealNodes(fine);
+    tree = std::make_unique<CellTree>(0);
     const std::map<Cell, std::uint64_t> fine_overflow = std::exchange(overflow, {});
     cache.clear();
     leaves = 0;
     ++level;
-    for (auto leaf = fine->cbeginLeaf(); leaf; ++leaf) {
+    for (CellLeaf* const stolen : fine) {
+      const std::unique_ptr<CellLeaf> leaf(stolen);  // Its memory serves the next coarse one.
       for (auto value = leaf->cbeginValueOn(); value; ++value) {
         const openvdb::Coord at = value.getCoord();
         add_to_cell({at.x() >> 1, at.y() >> 1, at.z() >> 1}, static_cast<std::uint64_t>(*value));

@@ -13,8 +13,8 @@ constexpr std::size_t kMostRuns = 256;
 
 /// Sorts; quickly what is a few sorted runs one after the other, as the points of several tiles are.
 template <class Less>
-void sort_runs(std::vector<std::uint32_t>& items, Less&& less) {
-  using Place = std::vector<std::uint32_t>::iterator;
+void sort_runs(PageVector<std::uint32_t>& items, Less&& less) {
+  using Place = PageVector<std::uint32_t>::iterator;
   std::vector<Place> ends;  // Of the runs.
   for (Place end = items.begin(); end != items.end();) {
     end = std::is_sorted_until(end, items.end(), less);
@@ -56,7 +56,7 @@ void fold_sorted(LatticePoints&& positions, PointIds&& ids, TilePoints& tile) {
 }
 
 void fold_duplicates(LatticePoints&& positions, PointIds&& ids, TilePoints& tile) {
-  std::vector<std::uint32_t> order(positions.size());
+  PageVector<std::uint32_t> order(positions.size());
   std::iota(order.begin(), order.end(), 0U);
   sort_runs(order, [&](std::uint32_t a, std::uint32_t b) {
     if (positions[a] != positions[b]) return z_order_less(positions[a], positions[b]);

@@ -20,22 +20,25 @@ LeafIndex::LeafIndex(std::span<const LatticePoint> points, int first_level, int 
   const std::size_t most = std::max<std::size_t>(points.size() / points_per_leaf, 1);
   const std::size_t most_of_the_largest = std::max<std::size_t>(points.size() / least_points_per_leaf, 1);
   rehash(1024);
+  leaf_of_.resize(points.size());
   LatticePoint last{};
-  bool any = false;
-  for (const LatticePoint& p : points) {
-    LatticePoint key = key_of(p);
-    if (any && key == last) continue;
-    find_or_add(key);
-    while (keys_.size() > most && level_ < last_level) {
-      coarsen();
-      key = key_of(p);
+  std::uint32_t leaf = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    LatticePoint key = key_of(points[i]);
+    if (i == 0 || !(key == last)) {
+      leaf = find_or_add(key);
+      while (keys_.size() > most && level_ < last_level) {
+        coarsen(i);
+        key = key_of(points[i]);
+        leaf = find_or_add(key);
+      }
+      if (level_ == last_level && keys_.size() > most_of_the_largest) {
+        scattered_ = true;
+        return;
+      }
+      last = key;
     }
-    if (level_ == last_level && keys_.size() > most_of_the_largest) {
-      scattered_ = true;
-      return;
-    }
-    last = key;
-    any = true;
+    leaf_of_[i] = leaf;
   }
 }
 
@@ -62,12 +65,15 @@ void LeafIndex::rehash(std::size_t slots) {
   }
 }
 
-void LeafIndex::coarsen() {
+void LeafIndex::coarsen(std::size_t points) {
   ++level_;
   std::vector<LatticePoint> fine;
   fine.swap(keys_);
   slots_.assign(slots_.size(), 0);
-  for (const LatticePoint& key : fine) find_or_add({key.x >> 1, key.y >> 1, key.z >> 1});
+  std::vector<std::uint32_t> coarse_of(fine.size());
+  for (std::size_t i = 0; i < fine.size(); ++i)
+    coarse_of[i] = find_or_add({fine[i].x >> 1, fine[i].y >> 1, fine[i].z >> 1});
+  for (std::size_t i = 0; i < points; ++i) leaf_of_[i] = coarse_of[leaf_of_[i]];
 }
 
 std::size_t LeafIndex::cubes(int log2) const {
@@ -86,28 +92,13 @@ LatticePoint LeafIndex::origin(std::size_t leaf) const {
   return {scaled(key.x), scaled(key.y), scaled(key.z)};
 }
 
-void LeafIndex::group(std::span<const LatticePoint> points, PageVector<std::uint32_t>& order,
-                      std::vector<std::uint32_t>& begin) const {
-  PageVector<std::uint32_t> leaf_of(points.size());
+void LeafIndex::group(PageVector<std::uint32_t>& order, std::vector<std::uint32_t>& begin) const {
   begin.assign(keys_.size() + 1, 0);
-  const std::size_t mask = slots_.size() - 1;
-  LatticePoint last{};
-  std::uint32_t leaf = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const LatticePoint key = key_of(points[i]);
-    if (i == 0 || !(key == last)) {
-      std::size_t slot = hash_of(key) & mask;
-      while (!(keys_[slots_[slot] - 1] == key)) slot = (slot + 1) & mask;
-      leaf = slots_[slot] - 1;
-      last = key;
-    }
-    leaf_of[i] = leaf;
-    ++begin[leaf + 1];
-  }
+  for (const std::uint32_t leaf : leaf_of_) ++begin[leaf + 1];
   for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
   std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  order.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) order[next[leaf_of[i]]++] = static_cast<std::uint32_t>(i);
+  order.resize(leaf_of_.size());
+  for (std::size_t i = 0; i < leaf_of_.size(); ++i) order[next[leaf_of_[i]]++] = static_cast<std::uint32_t>(i);
 }
 
 }  // namespace arris::tiling

@@ -14,7 +14,7 @@ namespace arris::tiling {
 
 /// The leaves of 2^level steps a side that hold points, made in one pass: it starts with small leaves and doubles their
 /// side whenever there are more than the points can fill. Points too far apart for the largest leaves have no index: it
-/// is given up as soon as that is certain. Memory: about 64 bytes per leaf and 8 bytes per point (4 after grouping).
+/// is given up as soon as that is certain. Memory: about 64 bytes per leaf and 4 bytes per point.
 class LeafIndex {
  public:
   /// @param first_level, last_level  smallest and largest leaf.
@@ -33,19 +33,20 @@ class LeafIndex {
   LatticePoint origin(std::size_t leaf) const;
   /// Fills `order` with the indices of all points, leaf by leaf, ascending within a leaf; `begin` gets size() + 1
   /// starts.
-  void group(std::span<const LatticePoint> points, PageVector<std::uint32_t>& order,
-             std::vector<std::uint32_t>& begin) const;
+  void group(PageVector<std::uint32_t>& order, std::vector<std::uint32_t>& begin) const;
 
  private:
   std::uint32_t find_or_add(const LatticePoint& key);
   void rehash(std::size_t slots);
-  void coarsen();
+  /// The first `points` have their leaves.
+  void coarsen(std::size_t points);
   LatticePoint key_of(const LatticePoint& p) const { return {p.x >> level_, p.y >> level_, p.z >> level_}; }
 
   int level_;
   bool scattered_ = false;
-  std::vector<LatticePoint> keys_;    // Positions >> level_.
-  std::vector<std::uint32_t> slots_;  // Open addressing: index into keys_ + 1, 0 = free.
+  std::vector<LatticePoint> keys_;     // Positions >> level_.
+  std::vector<std::uint32_t> slots_;   // Open addressing: index into keys_ + 1, 0 = free.
+  PageVector<std::uint32_t> leaf_of_;  // Per point.
 };
 
 }  // namespace arris::tiling

@@ -68,7 +68,7 @@ PointDataTree::Ptr make_tree(std::span<const LatticePoint> positions, std::span<
                              const LeafIndex& index, int log2) {
   PageVector<std::uint32_t> order;
   std::vector<std::uint32_t> begin;
-  index.group(positions, order, begin);
+  index.group(order, begin);
   const PointDescriptor::Ptr descriptor = leaf_descriptor();
   std::vector<std::unique_ptr<PointLeaf>> leaves(index.size());
   parallel_for_chunks(leaves.size(), kGrainLeaves, [&](std::size_t first, std::size_t last) {

@@ -41,6 +41,19 @@ TEST(Pages, WhatIsReturned_IsTakenAgain) {
   EXPECT_EQ(spare_pages_bytes(), 0U);
 }
 
+TEST(Pages, BlocksOfLessThanTwoLargePages_ShareOne) {
+  drop_spare_pages();
+  void* const first = take_written(kMiB / 2);
+  EXPECT_EQ(spare_pages_bytes(), 2 * kMiB - kMiB / 2);
+  void* const second = take_written(kMiB);
+  EXPECT_EQ(second, static_cast<char*>(first) + kMiB / 2);
+  EXPECT_EQ(spare_pages_bytes(), kMiB / 2);
+  return_pages(first, kMiB / 2);
+  return_pages(second, kMiB);
+  EXPECT_EQ(spare_pages_bytes(), 2 * kMiB);
+  drop_spare_pages();
+}
+
 TEST(Pages, WhatWasNeverWritten_IsNotKept) {
   drop_spare_pages();
   void* const pages = take_pages(64 * kMiB);

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
+
+#include "core/parallel.h"
 
 namespace arris {
 namespace {
@@ -31,7 +34,9 @@ TEST(ReadAhead, AnyThreads_UseEveryItemInOrder) {
   for (const int threads : {1, 2, 4}) {
     EXPECT_EQ(numbers_used(0, threads), std::vector<int>{});
     EXPECT_EQ(numbers_used(1, threads), std::vector<int>{1});
-    EXPECT_EQ(numbers_used(5, threads), (std::vector<int>{1, 2, 3, 4, 5}));
+    std::vector<int> all(500);
+    std::iota(all.begin(), all.end(), 1);
+    EXPECT_EQ(numbers_used(500, threads), all);
   }
 }
 
@@ -62,7 +67,7 @@ TEST(ReadAhead, FailingUse_IsReportedAndEndsIt) {
     };
     EXPECT_THROW(read_ahead<Number>(fill, use), std::runtime_error);
     EXPECT_EQ(used, 3);
-    EXPECT_LE(filled, 4);
+    EXPECT_LE(filled, 5) << "two used, three places";
   }
 }
 

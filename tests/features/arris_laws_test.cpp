@@ -151,7 +151,7 @@ RC_GTEST_PROP(ArrisMethod, Records_AreSane, ()) {
 TEST(ArrisMethod, NumberOfThreads_ChangesNothing) {
   for (const Shape shape : {Shape::kFold, Shape::kGridFold, Shape::kDensityStep}) {
     const TilePoints tile = tile_of(random_positions(shape, 10000, 4000.0, 3), 3);
-    std::vector<ContourRecord> records[2];
+    ContourRecords records[2];
     int index = 0;
     for (const int threads : {1, 4}) {
       const ThreadLimit limit(threads);
@@ -171,7 +171,7 @@ TEST(ArrisMethod, HigherPrecision_OnlyDropsPoints) {
   ASSERT_FALSE(all.empty());
   for (const double least : {0.3, 0.7, 0.95}) {
     p.min_score = least;
-    const std::vector<ContourRecord> kept = run(tile, p).records;
+    const ContourRecords kept = run(tile, p).records;
     std::size_t expected = 0;
     for (const auto& [id, record] : all) expected += record.score >= least;
     EXPECT_NEAR(static_cast<double>(kept.size()), static_cast<double>(expected), 1.0) << "scores are rounded to float";

@@ -20,7 +20,7 @@ using test::Scene;
 constexpr double kStep = 0.001;
 constexpr double kSpacing = 0.25;
 
-std::vector<ContourRecord> contours_of(const Scene& scene) {
+ContourRecords contours_of(const Scene& scene) {
   ArrisParameters parameters;
   parameters.max_radius = 40.0 * kSpacing;
   return extract_arris(test::tile_of(scene, kStep), {kStep, {0.0, 0.0, 0.0}}, parameters).records;

@@ -201,7 +201,7 @@ double share_within(const std::vector<Point>& of, const std::vector<Point>& othe
 
 }  // namespace
 
-Score score(const Scene& scene, const std::vector<ContourRecord>& records, std::uint8_t classes, double tolerance) {
+Score score(const Scene& scene, const ContourRecords& records, std::uint8_t classes, double tolerance) {
   std::vector<Point> detections;
   for (const ContourRecord& record : records) {
     if (record.classes & classes) detections.push_back(scene.points[record.id]);

@@ -46,6 +46,6 @@ struct Score {
 
 /// Liu's protocol: a detection is right if a contour is within `tolerance`; recall is the share of contour samples with
 /// a detection within it. `classes` selects records.
-Score score(const Scene& scene, const std::vector<ContourRecord>& records, std::uint8_t classes, double tolerance);
+Score score(const Scene& scene, const ContourRecords& records, std::uint8_t classes, double tolerance);
 
 }  // namespace arris::test

@@ -158,7 +158,7 @@ TEST(LiuMethod, NumberOfThreads_ChangesNothing) {
     LiuParameters p;
     p.max_radius = 2.0;
     p.cf1_factor = 0.5;
-    std::vector<ContourRecord> records[2];
+    ContourRecords records[2];
     int index = 0;
     for (const int threads : {1, 4}) {
       const ThreadLimit limit(threads);

@@ -13,7 +13,7 @@ using test::Sampling;
 using test::Scene;
 using test::Score;
 
-std::vector<ContourRecord> contours_of(const Scene& scene) {
+ContourRecords contours_of(const Scene& scene) {
   LiuParameters parameters;
   parameters.max_radius = 40.0 * scene.spacing;
   constexpr double kStep = 0.001;
@@ -31,7 +31,7 @@ TEST_P(BlockFolds, Defaults_ReachTheBar) {
   Sampling sampling;
   sampling.noise = GetParam().noise;
   const Scene scene = test::block_scene(sampling);
-  const std::vector<ContourRecord> records = contours_of(scene);
+  const ContourRecords records = contours_of(scene);
   const Score folds = score(scene, records, kFold, scene.spacing);
   const Score all = score(scene, records, kFold | kBoundary | kWeakBoundary, scene.spacing);
   RecordProperty("f1", std::to_string(folds.f1()));

@@ -166,9 +166,9 @@ RC_GTEST_PROP(SegmentContours, Duplicates_HaveTheRecordOfTheirPosition, ()) {
 
 RC_GTEST_PROP(SegmentContours, NoBoundariesOrNoFolds_LeaveTheOthersAlone, ()) {
   Cloud cloud = any_cloud(500);
-  const std::vector<ContourRecord> all = cloud.run(cloud.tile).records;
+  const ContourRecords all = cloud.run(cloud.tile).records;
   const auto of_class = [&](std::uint8_t bit) {
-    std::vector<ContourRecord> records;
+    ContourRecords records;
     for (const ContourRecord& record : all) {
       if (record.classes & bit) records.push_back(record);
     }

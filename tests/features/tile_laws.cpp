@@ -81,7 +81,7 @@ TilePoints part_of(const TilePoints& tile, const UnprovenQuery& query) {
   return part_of(tile, LatticeBox{{p.x, p.y, p.z}, {p.x + 1LL, p.y + 1LL, p.z + 1LL}}, query.reach_steps);
 }
 
-void merge(std::map<std::uint64_t, ContourRecord>& into, const std::vector<ContourRecord>& records) {
+void merge(std::map<std::uint64_t, ContourRecord>& into, const ContourRecords& records) {
   for (const ContourRecord& record : records) {
     const auto [found, fresh] = into.try_emplace(record.id, record);
     if (!fresh) combine(found->second, record);

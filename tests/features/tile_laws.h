@@ -37,7 +37,7 @@ TilePoints part_of(const TilePoints& tile, const LatticeBox& core, std::int64_t 
 /// The points that rerunning a query needs: exactly the reach that it asks for.
 TilePoints part_of(const TilePoints& tile, const UnprovenQuery& query);
 
-void merge(std::map<std::uint64_t, ContourRecord>& into, const std::vector<ContourRecord>& records);
+void merge(std::map<std::uint64_t, ContourRecord>& into, const ContourRecords& records);
 
 }  // namespace test
 }  // namespace arris

@@ -135,7 +135,7 @@ TEST(ZhengMethod, NumberOfThreads_ChangesNothing) {
   p.spacing = 0.028;
   for (const bool improved : {false, true}) {
     p.improved = improved;
-    std::vector<ContourRecord> records[2];
+    ContourRecords records[2];
     int index = 0;
     for (const int threads : {1, 4}) {
       const ThreadLimit limit(threads);

@@ -18,7 +18,7 @@ using test::SupervoxelShape;
 constexpr double kStep = 0.001;
 
 /// @param dense  the method is told a spacing so many times the scene's, and the supervoxels are as much larger.
-std::vector<ContourRecord> contours_of(const Scene& scene, SupervoxelShape shape, bool improved, double dense = 1.0) {
+ContourRecords contours_of(const Scene& scene, SupervoxelShape shape, bool improved, double dense = 1.0) {
   shape.cell *= dense;
   shape.voxel *= dense;
   const TilePoints tile = test::tile_of(scene, kStep);

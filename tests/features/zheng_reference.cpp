@@ -108,7 +108,7 @@ TileContours reference_zheng(const TilePoints& tile, std::span<const std::uint32
   const ZhengSettings settings(parameters, lattice);
   Reference reference(tile, labels, table, settings);
   TileContours contours;
-  std::vector<ContourRecord> at(tile.positions.size());
+  ContourRecords at(tile.positions.size());
   for (std::size_t p = 0; p < at.size(); ++p) {
     if (tile.core.contains(tile.positions[p])) at[p] = reference.record(p);
     at[p].id = tile.ids[p];

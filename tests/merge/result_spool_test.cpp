@@ -34,7 +34,7 @@ ContourRecord record(std::uint64_t id, std::uint8_t classes, std::uint32_t votes
 // The law: whatever the split into appends and their order, a bucket holds the combination of all records of each id.
 RC_GTEST_PROP(ResultSpool, AnySplitAndOrder_GivesTheSameCombination, ()) {
   const std::uint64_t points = 2 * ResultSpool::kBucketPoints + 100;
-  std::vector<ContourRecord> records;
+  ContourRecords records;
   const int count = *rc::gen::inRange(0, 60);
   for (int i = 0; i < count; ++i) {
     const auto bucket = *rc::gen::inRange<std::uint64_t>(0, 3);
@@ -50,13 +50,13 @@ RC_GTEST_PROP(ResultSpool, AnySplitAndOrder_GivesTheSameCombination, ()) {
   }
   const TempFolder folder;
   ResultSpool spool(folder.path(), points);
-  std::vector<ContourRecord> run;
+  ContourRecords run;
   for (const ContourRecord& r : *rc::gen::just(records)) {
     run.insert(*rc::gen::arbitrary<bool>() ? run.begin() : run.end(), r);
     if (*rc::gen::inRange(0, 5) == 0) spool.append(std::exchange(run, {}));
   }
   spool.append(run);
-  std::vector<PointResult> results;
+  PageVector<PointResult> results;
   std::size_t seen = 0;
   for (std::size_t bucket = 0; bucket < spool.buckets(); ++bucket) {
     spool.load(bucket, results);
@@ -85,14 +85,14 @@ TEST(ResultSpool, FlippedBitOnDisk_IsFoundWhenRead) {
   file.seekp(12);
   file.put('\x55');
   file.close();
-  std::vector<PointResult> results;
+  PageVector<PointResult> results;
   EXPECT_THROW(spool.load(0, results), IoError);
 }
 
 TEST(ResultSpool, NoRecords_EveryPointIsUnlabelled) {
   const TempFolder folder;
   ResultSpool spool(folder.path(), 5);
-  std::vector<PointResult> results;
+  PageVector<PointResult> results;
   ASSERT_EQ(spool.buckets(), 1U);
   spool.load(0, results);
   EXPECT_EQ(results.size(), 5U);

@@ -31,7 +31,7 @@ ArrisTask make_task(const PointTree& tree, const TilePoints& tile, const Lattice
 }
 
 /// Gives what was found at a position to its duplicates too.
-void add_duplicates(const PointTree& tree, const TilePoints& tile, const std::vector<ArrisRunner::Found>& found,
+void add_duplicates(const PointTree& tree, const TilePoints& tile, const PageVector<ArrisRunner::Found>& found,
                     const std::vector<std::uint32_t>& isolated, TileContours& contours) {
   struct AtEntry {
     std::uint32_t entry;
@@ -60,7 +60,7 @@ TileContours extract_with(const TilePoints& tile, const Lattice& lattice, const 
   const PointTree tree(tile.positions, tile.ids);
   const ArrisTask task = make_task(tree, tile, lattice, parameters);
   if (tile.positions.empty()) return contours;
-  std::vector<ArrisRunner::Found> found;
+  PageVector<ArrisRunner::Found> found;
   std::vector<std::uint32_t> isolated;
   contours.unproven = run_queries(
       tree, tile, wanted, [&] { return ArrisRunner(task); },

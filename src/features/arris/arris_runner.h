@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/lattice.h"
+#include "core/pages.h"
 #include "features/arris/arris_parameters.h"
 #include "features/arris/ball_shape.h"
 #include "features/arris/point_analysis.h"
@@ -44,7 +45,7 @@ class ArrisRunner {
   void run(std::span<const std::uint32_t> slots);
 
   std::vector<UnprovenQuery> take_unproven() { return std::move(unproven_); }
-  const std::vector<Found>& found() const { return found_; }
+  const PageVector<Found>& found() const { return found_; }
   const std::vector<std::uint32_t>& isolated() const { return isolated_; }
 
  private:
@@ -90,7 +91,7 @@ class ArrisRunner {
   BallPoints points_[2];           ///< Of the larger balls of one point.
   ScatterScratch scatter_scratch_;
   AnalysisScratch scratch_;
-  std::vector<Found> found_;
+  PageVector<Found> found_;
   std::vector<std::uint32_t> isolated_;
   std::vector<UnprovenQuery> unproven_;
 };

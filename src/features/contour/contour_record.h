@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "core/pages.h"
+
 namespace arris {
 
 /// A partial result for one point. Combining is commutative and associative, so the order in which tiles are processed
@@ -21,6 +23,9 @@ struct ContourRecord {
 
   friend bool operator==(const ContourRecord&, const ContourRecord&) = default;
 };
+
+/// Of a tile: there may be as many as points.
+using ContourRecords = PageVector<ContourRecord>;
 
 /// Folds `other` into `record`; the ids must be equal.
 inline void combine(ContourRecord& record, const ContourRecord& other) {

@@ -18,12 +18,12 @@ struct FoundRecord {
   std::uint32_t slot;
   ContourRecord record;
 };
+using FoundRecords = PageVector<FoundRecord>;
 
 /// One record per id at the positions, duplicates included; ascending ids.
 /// @param found  any order, at most one per slot.
-inline std::vector<ContourRecord> records_of(const PointTree& tree, const TilePoints& tile,
-                                             std::span<const FoundRecord> found) {
-  std::vector<ContourRecord> records;
+inline ContourRecords records_of(const PointTree& tree, const TilePoints& tile, std::span<const FoundRecord> found) {
+  ContourRecords records;
   records.reserve(found.size());
   for (const FoundRecord& f : found) records.push_back(f.record);
   if (!tile.duplicates.empty()) {

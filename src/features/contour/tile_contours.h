@@ -28,7 +28,7 @@ struct TileContours {
   /// Records of contour points only; at most one per id, ascending ids. Votes may concern any point in a ball, owned by
   /// this tile or not; all else concerns queried points. Duplicates are expanded: every id at a contour position has
   /// its record.
-  std::vector<ContourRecord> records;
+  ContourRecords records;
   std::vector<UnprovenQuery> unproven;  ///< Ascending ids. They left no trace in `records` and `isolated`.
   std::uint64_t isolated = 0;           ///< Queried points with too few neighbours within R_max (duplicates count).
 };

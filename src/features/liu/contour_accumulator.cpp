@@ -14,7 +14,7 @@ constexpr std::uint8_t kIsolatedMark = 128;
 }  // namespace
 
 ContourAccumulator::ContourAccumulator(std::size_t points, bool folds)
-    : marks_(points), gap_deg_(points), votes_(folds ? points : 0), strongest_(folds ? points : 0) {}
+    : marks_(points, 0), gap_deg_(points, 0.0F), votes_(folds ? points : 0, 0), strongest_(folds ? points : 0, 0) {}
 
 void ContourAccumulator::add_gap(std::size_t slot, const GapResult& gap) {
   if (gap.boundary_deg > 0.0) {

@@ -2,8 +2,8 @@
 /// @file Collects what all queries of a tile say of its points, in dense arrays that any thread may add to.
 
 #include <cstdint>
-#include <vector>
 
+#include "core/pages.h"
 #include "core/tile_points.h"
 #include "features/contour/contour_record.h"
 #include "features/liu/fold_test.h"
@@ -23,20 +23,20 @@ class ContourAccumulator {
   void add_isolated(std::size_t slot);
 
   struct Outcome {
-    std::vector<ContourRecord> records;  ///< Ascending ids; duplicates expanded.
-    std::uint64_t isolated = 0;          ///< Duplicates count.
+    ContourRecords records;      ///< Ascending ids; duplicates expanded.
+    std::uint64_t isolated = 0;  ///< Duplicates count.
   };
   Outcome finish(const PointTree& tree, const TilePoints& tile) const;
 
  private:
   ContourRecord record(std::size_t slot) const;
 
-  std::vector<std::uint8_t> marks_;
-  std::vector<float> gap_deg_;
-  std::vector<std::uint32_t> votes_;
+  PageVector<std::uint8_t> marks_;
+  PageVector<float> gap_deg_;
+  PageVector<std::uint32_t> votes_;
   /// Bits of the strength above the complement of the bits of the angle: the maximum is the strongest, and of those the
   /// sharpest.
-  std::vector<std::uint64_t> strongest_;
+  PageVector<std::uint64_t> strongest_;
 };
 
 }  // namespace arris

@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
+#include "core/pages.h"
 #include "features/neighbourhood/ball_moments.h"
 #include "features/neighbourhood/candidate_set.h"
 #include "features/numerics/simd.h"
@@ -29,7 +29,7 @@ constexpr double kLargestBall = 15.0;
 struct BallPoints {
   static constexpr double kPaddingCoordinate = 1024.0;
 
-  std::vector<double> x, y, z;
+  PageVector<double> x, y, z;
   std::size_t count = 0;
 
   std::size_t padded_count() const { return simd::padded(count); }

@@ -33,13 +33,13 @@ struct Multiply {
 
 }  // namespace
 
-void CandidateProducts::make(const std::vector<float>& x, const std::vector<float>& y, const std::vector<float>& z,
+void CandidateProducts::make(const PageVector<float>& x, const PageVector<float>& y, const PageVector<float>& z,
                              std::size_t count, double farthest) {
   const std::size_t lanes = static_cast<std::size_t>(simd::widest_bytes()) / sizeof(std::int32_t);
   const auto per_lane = static_cast<double>(simd::padded(count) / lanes);
   exact = per_lane * farthest * farthest <= kMostSum;
   if (!exact) return;
-  std::vector<std::int32_t>* const columns[] = {&xx, &xy, &xz, &yy, &yz, &zz};
+  PageVector<std::int32_t>* const columns[] = {&xx, &xy, &xz, &yy, &yz, &zz};
   for (auto* column : columns) {
     if (column->size() < simd::padded(count)) column->resize(x.size());
   }

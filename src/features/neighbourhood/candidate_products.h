@@ -3,19 +3,20 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "core/pages.h"
 
 namespace arris {
 
 /// Relative to the candidates' origin, so that balls around different centres share them. Sums of 32-bit integers are
 /// exact where those of floats, which stop at 2^24, are not.
 struct CandidateProducts {
-  std::vector<std::int32_t> xx, xy, xz, yy, yz, zz;
+  PageVector<std::int32_t> xx, xy, xz, yy, yz, zz;
   bool exact = false;  ///< They are there, and no sum over all candidates overflows a lane.
 
   /// Of `count` candidates, none of whose coordinates is more than `farthest` from 0. Arrays are padded as in
   /// CandidateSet, with anything. Leaves them out, with `exact` false, where a sum might overflow.
-  void make(const std::vector<float>& x, const std::vector<float>& y, const std::vector<float>& z, std::size_t count,
+  void make(const PageVector<float>& x, const PageVector<float>& y, const PageVector<float>& z, std::size_t count,
             double farthest);
 };
 

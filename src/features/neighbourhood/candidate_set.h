@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
-#include <vector>
 
+#include "core/pages.h"
 #include "features/neighbourhood/candidate_products.h"
 #include "features/neighbourhood/point_tree.h"
 #include "features/numerics/simd.h"
@@ -46,13 +46,13 @@ struct alignas(16) PackedCandidate {
 /// in it.
 template <class T>
 struct CandidateSet {
-  std::vector<T> x, y, z;
-  std::vector<std::uint32_t> slot;  ///< Index in tree order.
+  PageVector<T> x, y, z;
+  PageVector<std::uint32_t> slot;  ///< Index in tree order.
   std::size_t count = 0;
   std::int64_t origin[3] = {0, 0, 0};
-  double farthest = 0.0;                ///< No coordinate is farther from 0.
-  CandidateProducts products;           ///< For ball_moments(), where asked for.
-  std::vector<PackedCandidate> packed;  ///< For select_nearest(), where asked for.
+  double farthest = 0.0;               ///< No coordinate is farther from 0.
+  CandidateProducts products;          ///< For ball_moments(), where asked for.
+  PageVector<PackedCandidate> packed;  ///< For select_nearest(), where asked for.
 
   /// Every point within `reach` steps of `box`, and some more: complete for queries inside the box up to that distance.
   /// Arrays are padded to a multiple of simd::kPadding with points far outside of any reach. Returns false, with no

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/pages.h"
 #include "features/neighbourhood/candidate_set.h"
 #include "features/neighbourhood/point_tree.h"
 
@@ -40,13 +41,13 @@ struct NearestQuery {
 /// Reusable memory of select_nearest.
 template <class T>
 struct NearestScratch {
-  std::vector<T> d2;
-  std::vector<std::uint32_t> candidate;
-  std::vector<std::int32_t> rank;
-  std::vector<std::uint32_t> sorted;
-  std::vector<T> sorted_d2;
+  PageVector<T> d2;
+  PageVector<std::uint32_t> candidate;
+  PageVector<std::int32_t> rank;
+  PageVector<std::uint32_t> sorted;
+  PageVector<T> sorted_d2;
   std::vector<std::pair<T, std::uint32_t>> pairs;
-  std::vector<PackedCandidate> rows;
+  PageVector<PackedCandidate> rows;
 
   void make_room(std::size_t candidates) {
     const std::size_t room = simd::padded(candidates) + simd::kPadding;

@@ -23,7 +23,7 @@ struct PackedNeighbours {
   bool narrow = true;  ///< Which of the two is filled.
   /// The position of the query, then the neighbours, relative to some origin: differences, their squares and sums of
   /// three of those are exact. Beyond them: anything finite. All have the same room, so that they may be swapped.
-  std::vector<PackedCandidate> rows;
+  PageVector<PackedCandidate> rows;
   Neighbours wide;  ///< Where floats are not exact, or very many are within the guess.
   std::uint64_t last_d2 = 0;
 

@@ -86,7 +86,7 @@ void select(std::span<Item> items, std::size_t nth, int axis) {
 
 struct Builder {
   PageVector<Item>& items;
-  std::vector<OuterBox>& boxes;
+  PageVector<OuterBox>& boxes;
   int depth;
 
   /// Splits node `node` of level `level` at its middle, so that everything below stays balanced.
@@ -125,7 +125,7 @@ struct Builder {
 PointTree::PointTree(std::span<const LatticePoint> positions, std::span<const std::uint64_t> ids) {
   const std::size_t n = positions.size();
   while ((n >> depth_) >= kBucketPoints) ++depth_;
-  boxes_.resize(2 * buckets());
+  boxes_.assign(2 * buckets(), OuterBox{});
   PageVector<Item> items(n);
   for (std::size_t i = 0; i < n; ++i) {
     items[i] = {{positions[i].x, positions[i].y, positions[i].z}, static_cast<std::uint32_t>(i)};

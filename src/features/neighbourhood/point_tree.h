@@ -65,7 +65,7 @@ class PointTree {
   PageVector<std::int32_t> x_, y_, z_;
   PageVector<std::uint32_t> entries_;
   PageVector<std::uint64_t> ids_;
-  std::vector<OuterBox> boxes_;  ///< Heap order: node 1 is the root, children 2i and 2i + 1.
+  PageVector<OuterBox> boxes_;  ///< Heap order: node 1 is the root, children 2i and 2i + 1.
 };
 
 }  // namespace arris

@@ -23,7 +23,7 @@ class SegmentContourRunner {
   /// `slots`: queries that are close together, in tree order.
   void run(std::span<const std::uint32_t> slots);
 
-  const std::vector<FoundRecord>& found() const { return found_; }
+  const FoundRecords& found() const { return found_; }
   const std::vector<OutlineEdge>& edges() const { return edges_; }
   std::vector<UnprovenQuery> take_unproven() { return {}; }  ///< The halo covers every support.
 
@@ -46,7 +46,7 @@ class SegmentContourRunner {
   std::vector<std::uint32_t> continue_;  ///< Segments around that go on where it ends.
   ShapeProjection own_, joined_;         ///< The segment alone, and with those that continue it.
   bool joined_known_ = false;
-  std::vector<FoundRecord> found_;
+  FoundRecords found_;
   std::vector<OutlineEdge> edges_;
 };
 

@@ -20,9 +20,9 @@ SegmentContours analyse_segment_contours(const TilePoints& tile, std::span<const
   SegmentContours contours;
   if (tile.positions.empty()) return contours;
   const PointTree tree(tile.positions, tile.ids);
-  const std::vector<std::uint32_t> ordered = in_tree_order(tree, labels);
+  const PageVector<std::uint32_t> ordered = in_tree_order(tree, labels);
   const SegmentTask task{tree, ordered, planes, lattice, parameters};
-  std::vector<FoundRecord> found;
+  FoundRecords found;
   const auto collect = [&](const SegmentContourRunner& runner) {
     found.insert(found.end(), runner.found().begin(), runner.found().end());
     contours.edges.insert(contours.edges.end(), runner.edges().begin(), runner.edges().end());

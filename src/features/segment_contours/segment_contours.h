@@ -25,7 +25,7 @@ namespace arris {
 struct SegmentContours {
   /// Contour points in the tile's core, duplicates expanded, ascending ids. EdgeClass: kFold (with kConvex or
   /// kConcave), or kBoundary. to_edge of folds: to the line in which the planes meet.
-  std::vector<ContourRecord> records;
+  ContourRecords records;
   std::vector<OutlineEdge> edges;  ///< Those whose `from` is in the core; ascending.
 };
 

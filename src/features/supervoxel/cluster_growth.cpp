@@ -70,7 +70,7 @@ class Growth {
     } else {
       std::mutex mutex;
       parallel_for_chunks(frontier_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::uint32_t> mine;
+        PageVector<std::uint32_t> mine;
         for (std::size_t i = begin; i < end; ++i) make_offers<false>(i, mine);
         const std::lock_guard lock(mutex);
         won_.insert(won_.end(), mine.begin(), mine.end());
@@ -109,7 +109,7 @@ class Growth {
   }
 
   template <bool kAlone>
-  void make_offers(std::size_t i, std::vector<std::uint32_t>& won) {
+  void make_offers(std::size_t i, PageVector<std::uint32_t>& won) {
     look_ahead(i);
     const TileSeed from = frontier_[i];
     for (const std::uint32_t voxel : tile_.neighbours_of(from.voxel)) {
@@ -140,8 +140,8 @@ class Growth {
   const Distance& distance_;
   PageVector<std::uint64_t> state_;
   PageVector<std::uint8_t> touched_;
-  std::vector<TileSeed> frontier_;
-  std::vector<std::uint32_t> won_;  // At this level.
+  PageVector<TileSeed> frontier_;
+  PageVector<std::uint32_t> won_;  // At this level.
 };
 
 template <class Distance>

@@ -24,7 +24,7 @@ class HealedRunner {
   /// `slots`: queries that are close together, in tree order.
   void run(std::span<const std::uint32_t> slots);
 
-  const std::vector<FoundRecord>& found() const { return found_; }
+  const FoundRecords& found() const { return found_; }
   std::vector<UnprovenQuery> take_unproven() { return {}; }  ///< The halo covers every support.
 
  private:
@@ -64,7 +64,7 @@ class HealedRunner {
   std::vector<Beside> beside_;
   std::vector<Ball> balls_;
   std::vector<Proposal> proposals_;
-  std::vector<FoundRecord> found_;
+  FoundRecords found_;
 };
 
 }  // namespace arris

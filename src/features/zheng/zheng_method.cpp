@@ -19,9 +19,9 @@ TileContours extract_zheng(const TilePoints& tile, std::span<const std::uint32_t
   TileContours contours;
   if (tile.positions.empty()) return contours;
   const PointTree tree(tile.positions, tile.ids);
-  const std::vector<std::uint32_t> ordered = in_tree_order(tree, labels);
+  const PageVector<std::uint32_t> ordered = in_tree_order(tree, labels);
   const ZhengTask task{tree, ordered, table, settings};
-  std::vector<FoundRecord> found;
+  FoundRecords found;
   const auto collect = [&](const auto& runner) {
     found.insert(found.end(), runner.found().begin(), runner.found().end());
   };

@@ -19,7 +19,7 @@ class ZhengRunner {
   /// `slots`: queries that are close together, in tree order.
   void run(std::span<const std::uint32_t> slots);
 
-  const std::vector<FoundRecord>& found() const { return found_; }
+  const FoundRecords& found() const { return found_; }
   std::vector<UnprovenQuery> take_unproven() { return {}; }  ///< The halo covers every support.
 
  private:
@@ -42,7 +42,7 @@ class ZhengRunner {
   LabelledGroup group_;
   SurfaceProjection surface_;
   std::vector<Query> queries_;
-  std::vector<FoundRecord> found_;
+  FoundRecords found_;
 };
 
 }  // namespace arris
