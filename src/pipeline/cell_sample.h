@@ -28,6 +28,8 @@ class CellSample {
   /// @param side_spacings  of a cell, rounded up to a power of two of steps. @param points  to be drawn, about.
   CellSample(const tiling::Survey& survey, double side_spacings, double points);
 
+  /// Of the cells: their sides are 2^level steps.
+  int level() const { return shift_; }
   bool draws(const LatticePoint& place) const;
   LatticePoint place_of(const LatticePoint& p) const;
   /// A point of a place that is drawn; in ascending order of ids.

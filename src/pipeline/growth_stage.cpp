@@ -1,5 +1,6 @@
 #include "pipeline/growth_stage.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "core/memory_budget.h"
@@ -45,7 +46,8 @@ GrowthResult grow_segments(io::InputSet& inputs, const GrowthSetup& setup, merge
   // What has the position of another point has its segment.
   duplicates.for_each(
       [&](const merge::DuplicatePoint& point) { result.segments.labels[point.id] = result.segments.labels[point.of]; });
-  frontier.keep_border(result.segments.labels, job.memory.tiles_bytes);
+  // The room that tiles have left, so that the peak of the run, which is predicted, is theirs.
+  frontier.keep_border(result.segments.labels, std::min(job.memory.tiles_bytes, job.likely_tiles_bytes));
   setup.watch.lap("join");
   return result;
 }

@@ -46,7 +46,7 @@ TileJob plan_job(io::InputSet& inputs, tiling::Survey survey, const SegmentReque
   needs.halo = [&](double spacing) { return segment_halo(parameters, spacing); };
   needs.max_radius = (parameters.published ? 2.0 : 3.0) * parameters.reach();
   needs.asks_again = true;
-  needs.stored_bytes_per_point = 15.7;  // More tile files wait for queries.
+  needs.stored_bytes_per_point = 14.5;  // Most tile files wait for queries.
   needs.likely_result_bytes_per_point = frontier_bytes;
   needs.most_result_bytes_per_point = most_frontier_bytes_per_point(parameters);
   plan_tiles_of(job, needs, inputs, request, progress, cancel);
@@ -86,7 +86,9 @@ IntensityTable choose_points(io::InputSet& inputs, const SegmentRequest& request
 /// Unless given, the number of neighbours follows the noise. @return bytes of the frontier per point.
 double look_at_samples(io::InputSet& inputs, const tiling::Survey& survey, std::span<const std::uint8_t> intensities,
                        SegmentParameters& p, ProgressSink& progress, const CancelToken& cancel) {
-  std::vector<CellSample> samples{{survey, kFrontierCellSpacings, frontier_sample(survey.points())}};
+  const double points = frontier_sample(survey.points());
+  std::vector<CellSample> samples{{survey, kFrontierCellSpacings, points},
+                                  {survey, kSmallFrontierCellSpacings, points}};
   if (p.adaptive()) samples.emplace_back(survey, kNoiseCellSpacings, kNoiseSample);
   draw_cells(inputs, survey, samples, progress, cancel);
   if (p.adaptive()) {
@@ -94,7 +96,7 @@ double look_at_samples(io::InputSet& inputs, const tiling::Survey& survey, std::
     p.noise = found.noise;
     if (found.least_spacing > 0.0) p.most_by_noise = neighbours_for(found.noise / found.least_spacing);
   }
-  return frontier_bytes_per_point(samples.front(), intensities, survey.lattice, p);
+  return frontier_bytes_per_point({samples[0], samples[1]}, intensities, survey, p);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ constexpr double kTileFileBytesPerPoint = 24.0;
 constexpr std::uint64_t kCellsOfATile = 64;
 constexpr std::uint64_t kLikelyBytesPerTile = 48 * 1024;
 constexpr std::uint64_t kMostBytesPerTile = 64 * 1024;
+constexpr double kTileFileLikelyBytes = 15.0;  // Per stored point.
 
 tiling::TilePlan plan_tiles_around_crowds(const tiling::Survey& survey, const tiling::PlanRequest& request,
                                           io::InputSet& inputs, ProgressSink& progress, const CancelToken& cancel) {
@@ -30,32 +31,60 @@ tiling::TilePlan plan_tiles_around_crowds(const tiling::Survey& survey, const ti
   return plan;
 }
 
-/// What is resident at the peak, as against fixed_bytes and tile_bytes(), which bound it: buffers are seldom full, and
-/// tiles in flight are not all at their peak together. Measured (bench/README.md).
-std::uint64_t likely_peak_bytes(const TileJob& job) {
+/// Covered points of the tiles that may be in flight together, the largest first.
+std::vector<double> largest_tiles(const TileJob& job) {
+  std::vector<double> points;
+  for (const tiling::PlannedTile& tile : job.tiles.tiles) points.push_back(static_cast<double>(tile.covered_points));
+  const std::size_t most = std::min(points.size(), static_cast<std::size_t>(job.memory.tile_workers));
+  std::partial_sort(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(most), points.end(), std::greater<>());
+  points.resize(most);
+  return points;
+}
+
+/// Of the tiles in flight with the scratch of all threads; tiles are not all at their peak together. Measured.
+double likely_tiles_bytes(const TileJob& job) {
+  constexpr double kOfTile = 0.95;
+  double bytes = static_cast<double>(job.memory.scratch_bytes), share = 1.0;
+  for (const double points : largest_tiles(job)) {
+    bytes += share * kOfTile * static_cast<double>(job.memory.tile_bytes(static_cast<std::uint64_t>(points)));
+    share = job.memory.method.beside_another;
+  }
+  return bytes;
+}
+
+/// On disk, where a tile file goes at once when its tile is analysed: files of the tiles in flight; of every other tile
+/// its spool or its results.
+double likely_followed_bytes(const TileJob& job, const TileNeeds& needs, double points, double stored) {
+  const double covered = points * job.tiles.duplication;
+  double in_flight = 0.0, beside = 0.0;  // Shares of the scan: of all tiles in flight, of all but the largest.
+  for (const double tile : largest_tiles(job)) {
+    if (in_flight > 0.0) beside += tile / covered;
+    in_flight += tile / covered;
+  }
+  const double of_others =
+      std::max(stored * needs.stored_bytes_per_point, points * needs.likely_result_bytes_per_point);
+  return in_flight * stored * kTileFileLikelyBytes + (1.0 - beside) * of_others +
+         static_cast<double>(job.memory.tile_workers) * static_cast<double>(kLikelyBytesPerTile);
+}
+
+/// What is resident at the peak, as against fixed_bytes and tile_bytes(), which bound it: buffers are seldom full.
+/// Measured (bench/README.md).
+double likely_peak_bytes(const TileJob& job, double tiles_bytes) {
   constexpr double kProgramBytes = 40e6;  // All that stays where several tiles take the room of the survey in turn.
   constexpr double kThreadBytes = 6e6;    // Of every thread but the first: what is read ahead, a heap of its own.
-  constexpr double kOfTile = 0.95;
   constexpr double kGatherBytes =
       87e6;  // Results of a few million points, records and buffers while outputs are written.
   constexpr double kGatherPoints = 3e6;
   constexpr double kOfPeakSoFar = 1.05;
-  std::vector<std::uint64_t> points;
-  for (const tiling::PlannedTile& tile : job.tiles.tiles) points.push_back(tile.covered_points);
-  const std::size_t most = std::min(points.size(), static_cast<std::size_t>(job.memory.tile_workers));
-  std::partial_sort(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(most), points.end(), std::greater<>());
-  double tiles = static_cast<double>(job.memory.scratch_bytes);
-  for (std::size_t i = 0; i < most; ++i)
-    tiles += (i == 0 ? 1.0 : job.memory.method.beside_another) * kOfTile *
-             static_cast<double>(job.memory.tile_bytes(points[i]));
   const double gather = kGatherBytes * std::min(1.0, static_cast<double>(job.survey.points()) / kGatherPoints);
   const auto held = static_cast<double>(job.memory_request.held_bytes);
   const double threads = kThreadBytes * (job.memory_request.threads - 1);
-  const double stays = points.size() > 1
+  const double stays = job.tiles.tiles.size() > 1
                            ? std::min(kProgramBytes + held, static_cast<double>(job.memory.resident_bytes))
                            : static_cast<double>(std::max(job.memory.resident_bytes, arris::resident_bytes()));
-  const double peak = stays + threads + static_cast<double>(job.memory_request.kept_bytes) + std::max(tiles, gather);
-  return static_cast<std::uint64_t>(std::max(peak, kOfPeakSoFar * static_cast<double>(peak_resident_bytes())));
+  const double peak =
+      stays + threads + static_cast<double>(job.memory_request.kept_bytes) + std::max(tiles_bytes, gather);
+  return std::max(peak, kOfPeakSoFar * static_cast<double>(peak_resident_bytes()));
 }
 
 }  // namespace
@@ -87,27 +116,21 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, io::InputSet& inputs, c
                     grouped(job.tiles.largest_covered_points), human_bytes(largest),
                     budget_text(least_budget_bytes(job.tiles.largest_covered_points, job.memory_request))));
   }
-  job.predicted_peak_bytes = likely_peak_bytes(job);
+  const double tiles_bytes = likely_tiles_bytes(job);
+  job.likely_tiles_bytes = static_cast<std::uint64_t>(tiles_bytes);
+  job.predicted_peak_bytes = static_cast<std::uint64_t>(likely_peak_bytes(job, tiles_bytes));
   const auto points = static_cast<double>(job.survey.points());
   const auto bytes = [&](double stored, double per_stored, double per_point, std::uint64_t per_tile) {
     return static_cast<std::uint64_t>(stored * per_stored + points * per_point) + job.tiles.tiles.size() * per_tile +
            needs.further_temp_bytes;
   };
-  constexpr double kTileFileLikelyBytes = 15.0;  // One of few tiles is much of the scan.
-  const double likely_bytes =
-      std::max(needs.stored_bytes_per_point,
-               kTileFileLikelyBytes / static_cast<double>(std::max<std::size_t>(job.tiles.tiles.size(), 1)));
   const double most_stored = points * job.tiles.duplication;
   const double likely_stored = points * (1.0 + (job.tiles.duplication - 1.0) * needs.halo_fill);
-  // Files that go at once when their tile is analysed are there together only where several tiles are in flight; often
-  // one more is written before one that was analysed goes.
-  const double together = job.memory.tile_workers > 1 ? job.memory.tile_workers - 0.5 : 0.0;
-  const double beside_one = needs.whole_halo ? together * likely_stored * kTileFileLikelyBytes /
-                                                   static_cast<double>(std::max<std::size_t>(job.tiles.tiles.size(), 1))
-                                             : 0.0;
   job.predicted_temp_bytes =
-      bytes(likely_stored, likely_bytes, needs.likely_result_bytes_per_point, kLikelyBytesPerTile) +
-      static_cast<std::uint64_t>(beside_one);
+      needs.whole_halo ? needs.further_temp_bytes +
+                             static_cast<std::uint64_t>(likely_followed_bytes(job, needs, points, likely_stored))
+                       : bytes(likely_stored, needs.stored_bytes_per_point, needs.likely_result_bytes_per_point,
+                               kLikelyBytesPerTile);
   check_temp_space(bytes(most_stored, needs.stored_bytes_per_point + kTileFileBytesPerPoint,
                          needs.most_result_bytes_per_point, kMostBytesPerTile),
                    request, progress);

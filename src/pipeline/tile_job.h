@@ -23,8 +23,9 @@ struct TileJob {
   MemoryRequest memory_request;
   MemoryPlan memory;  ///< plan_memory(memory_request).
   tiling::TilePlan tiles;
-  std::int64_t farthest_steps = 0;  ///< No query reaches farther than this; 0: halos are whole.
-  bool asks_again = false;          ///< See TileNeeds.
+  std::int64_t farthest_steps = 0;       ///< No query reaches farther than this; 0: halos are whole.
+  bool asks_again = false;               ///< See TileNeeds.
+  std::uint64_t likely_tiles_bytes = 0;  ///< Resident at the peak, of the tiles in flight.
   std::uint64_t predicted_peak_bytes = 0;
   std::uint64_t predicted_temp_bytes = 0;
 };
@@ -35,7 +36,8 @@ struct TileNeeds {
   double max_radius = 0.0;
   bool whole_halo = false;
   bool asks_again = false;  ///< A query that is asked again may be unproven again, with a greater reach.
-  /// On disk, likely at the peak, per point of a tile: 9 in the spool, then 15 in its tile file until that goes.
+  /// On disk, likely at the peak, per point of a tile: of its tile file, which waits for queries of other tiles; where
+  /// halos are whole, of its spool.
   double stored_bytes_per_point = 14.0;
   double halo_fill = 1.0;  ///< Plans count the cells that a halo meets whole; this share of their points lies in it.
   /// On disk, of results: what scans usually need, and what is asked of the disk before work.

@@ -16,8 +16,9 @@
 namespace arris::pipeline {
 namespace {
 
-/// Of runs, where there are any: neighbours in the file are neighbours in space, but a street is scanned twice.
-constexpr double kRunEntries = 1.28;
+/// Neighbours in the file are neighbours in space, but so much of the scan is met again when the table has been
+/// emptied.
+constexpr double kScannedTwice = 0.28;
 constexpr double kTableEntryBytes = sizeof(tiling::VoxelSums) + tiling::kOrderBytes;
 /// Neighbours of a voxel of a surface.
 constexpr double kNeighbours = 12.0;
@@ -34,9 +35,8 @@ class CubesOfCell {
     const double sides = std::ldexp(1.0, cell_level) / static_cast<double>(side_steps);
     flat_ = 0.5 * (1.0 + sides * sides);  // A cell is seldom crossed from side to side.
   }
-  double operator()(std::uint64_t points) const {
+  double operator()(double n) const {
     constexpr double kTilted = 1.3;  // More than a flat surface crosses. Measured.
-    const auto n = static_cast<double>(points);
     return std::min(n, kTilted * flat_ * (1.0 - std::exp(-n / flat_)));
   }
   /// The share of them that have hardly any neighbours, so that no seed grows there.
@@ -50,10 +50,13 @@ class CubesOfCell {
   double flat_;
 };
 
-double count_of_cubes(const tiling::CellCounts& counts, std::int64_t side_steps) {
+/// @param parts  of the points, that fill cubes of their own.
+double count_of_cubes(const tiling::CellCounts& counts, std::int64_t side_steps, std::uint64_t parts = 1) {
   const CubesOfCell cubes(counts.level(), side_steps);
   double sum = 0.0;
-  counts.for_each_by_leaf([&](const LatticeBox&, std::uint64_t points) { sum += cubes(points); });
+  counts.for_each_by_leaf([&](const LatticeBox&, std::uint64_t points) {
+    sum += static_cast<double>(parts) * cubes(static_cast<double>(points) / static_cast<double>(parts));
+  });
   return sum;
 }
 
@@ -69,9 +72,17 @@ double count_of_leftovers(const tiling::CellCounts& counts, const SupervoxelScal
                           const SupervoxelScale& scale) {
   const CubesOfCell before(counts.level(), finer.voxel_steps), cubes(counts.level(), scale.voxel_steps);
   double sum = 0.0;
-  counts.for_each_by_leaf(
-      [&](const LatticeBox&, std::uint64_t points) { sum += before.lonely(points) * cubes(points); });
+  counts.for_each_by_leaf([&](const LatticeBox&, std::uint64_t points) {
+    sum += before.lonely(points) * cubes(static_cast<double>(points));
+  });
   return sum;
+}
+
+/// Of all runs, where the table has room for fewer voxels than there are. What is scanned twice is in two of them as
+/// far as both scans met the same voxels, unless the table still held it.
+double run_entries(const tiling::Survey& survey, const SupervoxelScale& scale, double voxels, double table_entries) {
+  const double of_both = count_of_cubes(survey.counts, scale.voxel_steps, 2);
+  return voxels + kScannedTwice * (of_both - voxels) * (1.0 - table_entries / voxels);
 }
 
 double bytes_per_voxel(const VoxelEstimate& estimate, const SupervoxelParameters& parameters) {
@@ -89,7 +100,7 @@ double largest_tile(const tiling::Survey& survey, const SupervoxelScale& scale, 
     double whole = 0.0;  // Of what came so far.
     survey.counts.for_each([&](const LatticeBox& cell, std::uint64_t points) {
       const double before = std::floor(whole);
-      whole += voxels_of(points);
+      whole += voxels_of(static_cast<double>(points));
       const auto count = static_cast<std::uint64_t>(std::floor(whole) - before);
       const auto along = [&](int axis) {
         return grid.voxel_of(static_cast<std::int32_t>((cell.min[axis] + cell.max[axis]) / 2)) >> 3;
@@ -168,12 +179,13 @@ std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const Sup
                                          const VoxelMemory& memory) {
   const double voxels = likely_voxels(survey, scale);
   const auto room = static_cast<double>(memory.table_bytes() + memory.index_bytes());
-  const bool runs = voxels * kTableEntryBytes > static_cast<double>(memory.table_bytes());
+  const double table_entries = static_cast<double>(memory.table_bytes()) / kTableEntryBytes;
+  const double runs = voxels > table_entries ? run_entries(survey, scale, voxels, table_entries) : 0.0;
   const bool tiles =
       voxels * supervoxel_bytes_per_voxel(SupervoxelParameters::Features::kNormal, false, kNeighbours) > room;
   // Runs are gone when normals of tiles come.
-  const double beside = std::max(runs ? kRunEntries * sizeof(tiling::VoxelSums) : 0.0, tiles ? kNormalBytes : 0.0);
-  return predicted_store_bytes(survey, scale) + static_cast<std::uint64_t>(voxels * beside);
+  const double beside = std::max(runs * sizeof(tiling::VoxelSums), tiles ? kNormalBytes * voxels : 0.0);
+  return predicted_store_bytes(survey, scale) + static_cast<std::uint64_t>(beside);
 }
 
 }  // namespace arris::pipeline

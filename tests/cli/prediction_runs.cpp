@@ -18,14 +18,13 @@ void expect_predictions(std::uint64_t points, const std::vector<std::string>& bu
                        "-q"})
                 .exit_code,
             0);
-  const std::vector<std::vector<std::string>> jobs{{"extract", "--method", "arris"},
-                                                   {"extract", "--method", "liu"},
-                                                   {"extract", "--method", "zheng"},
-                                                   {"segment"},
-                                                   {"supervoxel"}};
+  const std::vector<std::vector<std::string>> jobs{{"extract", "--method", "arris"}, {"extract", "--method", "liu"},
+                                                   {"extract", "--method", "zheng"}, {"segment"},
+                                                   {"segment", "-k", "30"},          {"supervoxel"}};
   for (const std::vector<std::string>& job : jobs) {
     for (const std::string& budget : budgets) {
-      const std::string what = job.back() + ", " + budget + ", " + std::to_string(points) + " points";
+      const std::string what =
+          job.front() + " " + job.back() + ", " + budget + ", " + std::to_string(points) + " points";
       std::vector<std::string> arguments = job;
       arguments.insert(arguments.end(), {folder / "scan.las", "-o", folder / "out.las", "--overwrite", "-q", "--memory",
                                          budget, "--threads", "2", "--report", folder / "report.json"});

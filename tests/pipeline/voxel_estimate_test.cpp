@@ -61,6 +61,17 @@ TEST(VoxelEstimate, PointsFarApart_AreLoneVoxelsWithABlockEach) {
   EXPECT_NEAR(estimate.index_bytes, 48.0 * 100'000.0, 100'000.0);
 }
 
+// A voxel for each point: no run holds one that another has, however small the table is.
+TEST(VoxelEstimate, VoxelsOfOnePoint_AreInOneRunOnly) {
+  const tiling::Survey survey = survey_of(plane());
+  const SupervoxelScale scale = scale_of(2);
+  const double voxels = estimate_voxels(survey, scale).voxels;
+  const VoxelMemory memory((resident_bytes() + kGiB / 25) * 100 / 92);
+  const auto store = static_cast<double>(predicted_store_bytes(survey, scale));
+  const double runs = static_cast<double>(predicted_voxel_temp_bytes(survey, scale, memory)) - store;
+  EXPECT_NEAR(runs / (28.0 * voxels), 1.0, 0.05);
+}
+
 TEST(VoxelEstimate, SmallerBudget_ForetellsNoMoreThanTheBudget) {
   const tiling::Survey survey = survey_of(plane());
   const SupervoxelScale scale = scale_of(20);
