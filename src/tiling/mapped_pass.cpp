@@ -8,23 +8,27 @@
 
 namespace arris::tiling {
 
+MappedReader::MappedReader(io::InputSet& inputs, const Lattice& lattice)
+    : inputs_(inputs), mapper_(inputs.sources(), lattice) {
+  inputs_.rewind();
+}
+
+bool MappedReader::read(MappedPoints& points) {
+  if (!inputs_.read(points.batch, {})) return false;
+  mapper_.map(points.batch, inputs_.source_index(), points.positions, points.outcome);
+  return true;
+}
+
 void for_each_mapped_batch(io::InputSet& inputs, const Lattice& lattice, std::string_view phase, ProgressSink& progress,
                            const CancelToken& cancel, const std::function<void(const MappedPoints&)>& use) {
-  const LatticeMapper mapper(inputs.sources(), lattice);
-  const io::ReadOptions options;
   progress.phase(phase, inputs.points());
-  inputs.rewind();
-  read_ahead<MappedPoints>(
-      [&](MappedPoints& points) {
-        if (!inputs.read(points.batch, options)) return false;
-        mapper.map(points.batch, inputs.source_index(), points.positions, points.outcome);
-        return true;
-      },
-      [&](const MappedPoints& points) {
-        cancel.check();
-        use(points);
-        progress.advance(points.batch.count);
-      });
+  MappedReader reader(inputs, lattice);
+  read_ahead<MappedPoints>([&](MappedPoints& points) { return reader.read(points); },
+                           [&](const MappedPoints& points) {
+                             cancel.check();
+                             use(points);
+                             progress.advance(points.batch.count);
+                           });
 }
 
 void for_each_mapped_batch_unordered(io::InputSet& inputs, const Lattice& lattice, std::string_view phase,

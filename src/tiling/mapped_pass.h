@@ -21,6 +21,18 @@ struct MappedPoints {
   std::vector<Mapped> outcome;
 };
 
+/// Reads the inputs from their start, batch by batch, without records.
+class MappedReader {
+ public:
+  MappedReader(io::InputSet& inputs, const Lattice& lattice);
+  /// False at the end. Throws IoError, InputError.
+  bool read(MappedPoints& points);
+
+ private:
+  io::InputSet& inputs_;
+  LatticeMapper mapper_;
+};
+
 /// Reads the inputs from their start and calls use() for every batch in turn, without records, while the next one is
 /// read. Begins a phase of that name. Throws IoError, InputError, Cancelled.
 void for_each_mapped_batch(io::InputSet& inputs, const Lattice& lattice, std::string_view phase, ProgressSink& progress,

@@ -28,12 +28,12 @@ struct PartitionResult {
 };
 
 /// The work of partition_points on batches of lattice points. Memory: the spool buffers, a copy of the survey's counts,
-/// and about 150 bytes per tile. Not thread-safe.
+/// and about 150 bytes per tile. Not thread-safe, but for count(), which may run ahead on a thread of its own.
 ///
 /// Laws: (1) when closed(tile) is called, the tile's spool file holds exactly the points inside its covered box; (2)
-/// every tile is closed exactly once: during add() if the survey's counts prove that no later point can belong to it,
-/// else in finish() (tiles that no survey cell touches); (3) finish() returns only if the points added are, cell by
-/// cell, as many as the survey counted.
+/// every tile is closed exactly once: after the points with which the survey's counts prove that no later one can
+/// belong to it, else in finish() (tiles that no survey cell touches); (3) finish() returns only if the points added
+/// are, cell by cell, as many as the survey counted.
 class Partitioner {
  public:
   Partitioner(const CellCounts& counts, const TilePlan& plan, const PartitionOptions& options,
@@ -42,9 +42,15 @@ class Partitioner {
   Partitioner(const Partitioner&) = delete;
   Partitioner& operator=(const Partitioner&) = delete;
 
-  /// Adds points with ids first_id, first_id + 1, ... Throws InputError for points that the survey did not count,
-  /// IoError.
+  /// Adds points with ids first_id, first_id + 1, ...: count(), spool(), close(). Throws InputError, IoError.
   void add(std::span<const LatticePoint> points, std::uint64_t first_id);
+  /// Appends the tiles to which no point after these can belong to `complete`. Points are counted in the order in which
+  /// they are spooled. Throws InputError for points that the survey did not count.
+  void count(std::span<const LatticePoint> points, std::uint64_t first_id, std::vector<std::uint32_t>& complete);
+  /// Throws IoError.
+  void spool(std::span<const LatticePoint> points, std::uint64_t first_id);
+  /// All points counted with these tiles must be in their spools. Throws IoError.
+  void close(std::span<const std::uint32_t> complete);
   /// Throws InputError if points are missing that the survey counted.
   PartitionResult finish();
 

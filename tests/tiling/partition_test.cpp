@@ -72,8 +72,15 @@ RC_GTEST_PROP(Partitioner, AnyCloudAndTiles_SpoolsHoldExactlyTheCoveredPointsWhe
     RC_ASSERT(spool_of(folder.path(), tile) == inside(points, plan.tiles[tile].covered));
   });
   const auto batch = *rc::gen::inRange<std::size_t>(1, 100).as("batch");
-  for (std::size_t i = 0; i < points.size(); i += batch) {
-    partitioner.add(std::span(points).subspan(i, std::min(batch, points.size() - i)), i);
+  const auto batch_at = [&](std::size_t i) { return std::span(points).subspan(i, std::min(batch, points.size() - i)); };
+  // Batches are counted so far ahead of those that are spooled.
+  const std::size_t ahead = batch * *rc::gen::inRange<std::size_t>(0, 4).as("batches counted ahead");
+  std::vector<std::vector<std::uint32_t>> complete(points.size());
+  for (std::size_t i = 0; i < points.size() + ahead; i += batch) {
+    if (i < points.size()) partitioner.count(batch_at(i), i, complete[i]);
+    if (i < ahead) continue;
+    partitioner.spool(batch_at(i - ahead), i - ahead);
+    partitioner.close(complete[i - ahead]);
   }
   const PartitionResult result = partitioner.finish();
   std::uint64_t expected = 0, bytes = 0;
