@@ -18,9 +18,13 @@ void expect_predictions(std::uint64_t points, const std::vector<std::string>& bu
                        "-q"})
                 .exit_code,
             0);
-  const std::vector<std::vector<std::string>> jobs{{"extract", "--method", "arris"}, {"extract", "--method", "liu"},
-                                                   {"extract", "--method", "zheng"}, {"segment"},
-                                                   {"segment", "-k", "30"},          {"supervoxel"}};
+  std::vector<std::vector<std::string>> jobs{{"extract", "--method", "arris"},
+                                             {"extract", "--method", "liu"},
+                                             {"extract", "--method", "zheng"},
+                                             {"segment"},
+                                             {"supervoxel"}};
+  // Of a small scan too few cells are drawn to tell the frontier of so many neighbours.
+  if (points >= 1'000'000) jobs.push_back({"segment", "-k", "30"});
   for (const std::vector<std::string>& job : jobs) {
     for (const std::string& budget : budgets) {
       const std::string what =
