@@ -15,6 +15,13 @@ namespace {
 // int32.
 constexpr std::int32_t kCarry = 1 << 30;
 
+std::vector<const CellLeaf*> leaves_of(const CellTree& tree) {
+  std::vector<const CellLeaf*> leaves;
+  leaves.reserve(tree.leafCount());
+  tree.getNodes(leaves);
+  return leaves;
+}
+
 }  // namespace
 
 struct CellCounts::Impl {
@@ -94,7 +101,7 @@ struct CellCounts::Impl {
     cache.clear();
     leaves = 0;
     ++level;
-    for (auto leaf = fine->cbeginLeaf(); leaf; ++leaf) {
+    for (const CellLeaf* leaf : leaves_of(*fine)) {
       for (auto value = leaf->cbeginValueOn(); value; ++value) {
         const openvdb::Coord at = value.getCoord();
         add_to_cell({at.x() >> 1, at.y() >> 1, at.z() >> 1}, static_cast<std::uint64_t>(*value));
@@ -122,7 +129,7 @@ std::uint64_t CellCounts::total() const {
   return impl_->total;
 }
 std::size_t CellCounts::active_cells() const {
-  return impl_->tree->activeVoxelCount();
+  return impl_->tree->onVoxelCount();
 }
 
 void CellCounts::add(std::span<const LatticePoint> points) {
@@ -189,7 +196,7 @@ CellCounts CellCounts::coarsened(int level) const {
 }
 
 void CellCounts::for_each_by_leaf(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const {
-  for (auto leaf = impl_->tree->cbeginLeaf(); leaf; ++leaf) {
+  for (const CellLeaf* leaf : leaves_of(*impl_->tree)) {
     for (auto value = leaf->cbeginValueOn(); value; ++value) {
       const openvdb::Coord at = value.getCoord();
       const Cell cell{at.x(), at.y(), at.z()};
@@ -200,9 +207,7 @@ void CellCounts::for_each_by_leaf(const std::function<void(const LatticeBox& cel
 
 void CellCounts::for_each(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const {
   // Ascending order without a list of all cells: leaves are sorted, then rows of leaves are walked plane by plane.
-  std::vector<const CellLeaf*> leaves;
-  leaves.reserve(impl_->leaves);
-  for (auto leaf = impl_->tree->cbeginLeaf(); leaf; ++leaf) leaves.push_back(&*leaf);
+  std::vector<const CellLeaf*> leaves = leaves_of(*impl_->tree);
   std::ranges::sort(leaves, [](const CellLeaf* a, const CellLeaf* b) { return a->origin() < b->origin(); });
   const auto same = [&](std::size_t a, std::size_t b, int axes) {
     for (int axis = 0; axis < axes; ++axis) {
