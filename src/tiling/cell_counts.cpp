@@ -15,6 +15,13 @@ namespace {
 // int32.
 constexpr std::int32_t kCarry = 1 << 30;
 
+std::vector<const CellLeaf*> leaves_of(const CellTree& tree) {
+  std::vector<const CellLeaf*> leaves;
+  leaves.reserve(tree.leafCount());
+  tree.getNodes(leaves);
+  return leaves;
+}
+
 }  // namespace
 
 struct CellCounts::Impl {
@@ -89,19 +96,20 @@ struct CellCounts::Impl {
   }
 
   void coarsen() {
-    std::vector<CellLeaf*> fine;
-    tree->stealNodes(fine);
+    std::vector<CellLeaf*> stolen;
+    tree->stealNodes(stolen);
+    std::vector<std::unique_ptr<CellLeaf>> fine(stolen.begin(), stolen.end());
     tree = std::make_unique<CellTree>(0);
     const std::map<Cell, std::uint64_t> fine_overflow = std::exchange(overflow, {});
     cache.clear();
     leaves = 0;
     ++level;
-    for (CellLeaf* const stolen : fine) {
-      const std::unique_ptr<CellLeaf> leaf(stolen);  // Its memory serves the next coarse one.
+    for (std::unique_ptr<CellLeaf>& leaf : fine) {
       for (auto value = leaf->cbeginValueOn(); value; ++value) {
         const openvdb::Coord at = value.getCoord();
         add_to_cell({at.x() >> 1, at.y() >> 1, at.z() >> 1}, static_cast<std::uint64_t>(*value));
       }
+      leaf.reset();  // Its memory serves the next coarse one.
     }
     for (const auto& [cell, count] : fine_overflow) add_to_cell({cell[0] >> 1, cell[1] >> 1, cell[2] >> 1}, count);
   }
@@ -125,7 +133,7 @@ std::uint64_t CellCounts::total() const {
   return impl_->total;
 }
 std::size_t CellCounts::active_cells() const {
-  return impl_->tree->activeVoxelCount();
+  return impl_->tree->onVoxelCount();
 }
 
 void CellCounts::add(std::span<const LatticePoint> points) {
@@ -192,7 +200,7 @@ CellCounts CellCounts::coarsened(int level) const {
 }
 
 void CellCounts::for_each_by_leaf(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const {
-  for (auto leaf = impl_->tree->cbeginLeaf(); leaf; ++leaf) {
+  for (const CellLeaf* leaf : leaves_of(*impl_->tree)) {
     for (auto value = leaf->cbeginValueOn(); value; ++value) {
       const openvdb::Coord at = value.getCoord();
       const Cell cell{at.x(), at.y(), at.z()};
@@ -203,9 +211,7 @@ void CellCounts::for_each_by_leaf(const std::function<void(const LatticeBox& cel
 
 void CellCounts::for_each(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const {
   // Ascending order without a list of all cells: leaves are sorted, then rows of leaves are walked plane by plane.
-  std::vector<const CellLeaf*> leaves;
-  leaves.reserve(impl_->leaves);
-  for (auto leaf = impl_->tree->cbeginLeaf(); leaf; ++leaf) leaves.push_back(&*leaf);
+  std::vector<const CellLeaf*> leaves = leaves_of(*impl_->tree);
   std::ranges::sort(leaves, [](const CellLeaf* a, const CellLeaf* b) { return a->origin() < b->origin(); });
   const auto same = [&](std::size_t a, std::size_t b, int axes) {
     for (int axis = 0; axis < axes; ++axis) {

@@ -1,7 +1,9 @@
 #pragma once
 /// @file The grid in which CellCounts keeps its counts. Private to it: includes OpenVDB.
 
-#include <openvdb/tree/Tree.h>
+#include <openvdb/tree/InternalNode.h>
+#include <openvdb/tree/LeafNode.h>
+#include <openvdb/tree/RootNode.h>
 
 #include <array>
 #include <cstddef>
@@ -13,9 +15,11 @@
 namespace arris::tiling {
 
 // Small upper nodes: with OpenVDB's usual 5-4-3 tree every far-away outlier costs 300 kB of internal nodes, here 0.6
-// kB.
-using CellTree = openvdb::tree::Tree3<openvdb::Int32, 2, 3>::Type;
-using CellLeaf = CellTree::LeafNodeType;
+// kB. The root without OpenVDB's Tree around it, whose virtual functions are all compiled wherever one is made:
+// reading, writing, printing and counting by many threads, which took most of the time that this folder took to
+// compile.
+using CellLeaf = openvdb::tree::LeafNode<openvdb::Int32, 3>;
+using CellTree = openvdb::tree::RootNode<openvdb::tree::InternalNode<CellLeaf, 2>>;
 using Cell = std::array<std::int32_t, 3>;
 
 constexpr int kCellLeafLog2 = 3;

@@ -7,8 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/pages.h"
@@ -63,9 +66,10 @@ LatticeBox box_of(const PointLeaf& leaf, int log2) {
   return box;
 }
 
-/// The tree of a cloud that is not scattered.
-PointDataTree::Ptr make_tree(std::span<const LatticePoint> positions, std::span<const std::uint64_t> ids,
-                             const LeafIndex& index, int log2) {
+/// Of a cloud that is not scattered.
+std::vector<std::unique_ptr<PointLeaf>> make_leaves(std::span<const LatticePoint> positions,
+                                                    std::span<const std::uint64_t> ids, const LeafIndex& index,
+                                                    int log2) {
   PageVector<std::uint32_t> order;
   std::vector<std::uint32_t> begin;
   index.group(order, begin);
@@ -77,9 +81,7 @@ PointDataTree::Ptr make_tree(std::span<const LatticePoint> positions, std::span<
       leaves[i] = writer.make(index.origin(i), std::span(order).subspan(begin[i], begin[i + 1] - begin[i]));
     }
   });
-  auto tree = std::make_shared<PointDataTree>();
-  for (auto& leaf : leaves) tree->addLeaf(leaf.release());
-  return tree;
+  return leaves;
 }
 
 /// Frees the attributes of the leaves as it goes.
@@ -87,10 +89,11 @@ SortedPoints take_points(PointDataGrid& grid, const std::function<bool(const Lat
   const int log2 = grid.metaValue<std::int32_t>(kVoxelMeta);
   if (log2 < 0 || log2 > kFixedVoxelLog2) throw std::runtime_error("has an unknown storage voxel");
 
-  if (lists_scattered_points(grid.tree())) return take_scattered_points(grid.tree(), wanted);
-
   std::vector<PointLeaf*> leaves;
   grid.tree().getNodes(leaves);
+  if (!leaves.empty() && lists_scattered_points(*leaves.front()))
+    return take_scattered_points(std::move(leaves), wanted);
+
   if (wanted) std::erase_if(leaves, [&](const PointLeaf* leaf) { return !wanted(box_of(*leaf, log2)); });
   std::ranges::sort(leaves, [](const PointLeaf* a, const PointLeaf* b) {
     const auto corner = [](const PointLeaf* leaf) {
@@ -135,7 +138,10 @@ PointGrid::PointGrid(std::span<const LatticePoint> positions, std::span<const st
                                  kLeastPointsPerLeaf);
   const int log2 = index->level() - kLeafLog2;
   if (is_scattered(*index, positions.size())) index.reset();
-  const auto tree = index ? make_tree(positions, ids, *index, log2) : list_scattered_points(positions, ids);
+  // Here alone: a tree's virtual functions are all compiled wherever one is made, and take long.
+  auto tree = std::make_shared<PointDataTree>();
+  auto leaves = index ? make_leaves(positions, ids, *index, log2) : list_scattered_points(positions, ids);
+  for (auto& leaf : leaves) tree->addLeaf(leaf.release());
   impl_->grid = PointDataGrid::create(tree);
   impl_->grid->setName("points");
   // World space is lattice steps: the middle of a voxel of 2^v steps lies (2^v - 1) / 2 behind its first step.

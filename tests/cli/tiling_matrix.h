@@ -20,7 +20,8 @@ struct TilingCase {
 std::vector<TilingCase> whole_matrix();
 /// Each value of each dimension at least twice (under sanitizers: the least).
 std::vector<TilingCase> small_matrix();
-/// One run untiled, one with everything different, one between (under ThreadSanitizer: two of many tiles and threads).
+/// One run untiled, one with everything different, one between. Under AddressSanitizer: the first two; under
+/// ThreadSanitizer: two of many tiles and threads.
 std::vector<TilingCase> least_matrix();
 
 /// What is run for every case.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "scene_testing.h"
+#include "support/sanitizers.h"
 
 namespace arris::synth {
 namespace {
@@ -58,6 +59,7 @@ TEST_P(EveryScene, AnyBlockSize_GivesTheSamePoints) {
 }
 
 TEST_P(EveryScene, NumberAskedFor_IsDelivered) {
+  ARRIS_SKIP_UNDER_SANITIZERS;
   for (const std::string& sampling : list_samplings()) {
     SceneRequest request = request_of(GetParam(), 200000);
     request.sampling = sampling;
@@ -69,6 +71,7 @@ TEST_P(EveryScene, NumberAskedFor_IsDelivered) {
 }
 
 TEST_P(EveryScene, Outliers_AreTheShareAskedFor) {
+  ARRIS_SKIP_UNDER_SANITIZERS;
   SceneRequest request = request_of(GetParam(), 100000);
   request.outliers = 0.05;
   const auto points = all_points(Scene(request));
