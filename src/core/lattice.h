@@ -22,14 +22,14 @@ struct LatticePoint {
   std::int32_t operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 };
 
-/// Exact squared distance in steps². Valid for differences below 2^31 per axis / sqrt(3) (no overflow of uint64 in any
-/// case).
+/// Exact squared distance in steps² where it is below 2^64, as along one axis it always is.
 inline std::uint64_t squared_distance(const LatticePoint& a, const LatticePoint& b) {
-  const std::int64_t dx = std::int64_t{a.x} - b.x;
-  const std::int64_t dy = std::int64_t{a.y} - b.y;
-  const std::int64_t dz = std::int64_t{a.z} - b.z;
-  return static_cast<std::uint64_t>(dx * dx) + static_cast<std::uint64_t>(dy * dy) +
-         static_cast<std::uint64_t>(dz * dz);
+  // The square of a difference of 2^32 - 1 has no room in int64; modulo 2^64 it is the same without a sign.
+  const auto square = [](std::int32_t from, std::int32_t to) {
+    const auto difference = static_cast<std::uint64_t>(std::int64_t{from} - to);
+    return difference * difference;
+  };
+  return square(a.x, b.x) + square(a.y, b.y) + square(a.z, b.z);
 }
 
 /// A half-open box [min, max) in lattice steps; int64 because max may be 2^31. Empty when any side is not positive.
