@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "core/error.h"
+#include "support/sanitizers.h"
 
 namespace arris::pipeline {
 namespace {
@@ -32,7 +33,8 @@ TEST(MemoryPlan, LeastBudget_IsEnough) {
 
 TEST(MemoryPlan, LargerBudget_NeverGivesSmallerTiles) {
   std::uint64_t last = 0;
-  for (std::uint64_t budget = 256; budget <= 65536; budget *= 2) {
+  // A sanitizer's own memory counts as resident, after other tests more than the least of these.
+  for (std::uint64_t budget = test::kAddressSanitizer ? 4096 : 256; budget <= 65536; budget *= 2) {
     const MemoryPlan plan = plan_memory({budget * kMiB, 2});
     EXPECT_GE(plan.max_tile_points, last);
     last = plan.max_tile_points;
