@@ -92,13 +92,14 @@ LatticePoint LeafIndex::origin(std::size_t leaf) const {
   return {scaled(key.x), scaled(key.y), scaled(key.z)};
 }
 
-void LeafIndex::group(PageVector<std::uint32_t>& order, std::vector<std::uint32_t>& begin) const {
+void LeafIndex::group(PageVector<std::uint32_t>& order, std::vector<std::uint32_t>& begin) {
   begin.assign(keys_.size() + 1, 0);
   for (const std::uint32_t leaf : leaf_of_) ++begin[leaf + 1];
   for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
   std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
   order.resize(leaf_of_.size());
   for (std::size_t i = 0; i < leaf_of_.size(); ++i) order[next[leaf_of_[i]]++] = static_cast<std::uint32_t>(i);
+  leaf_of_ = {};
 }
 
 }  // namespace arris::tiling

@@ -14,7 +14,8 @@ namespace arris::tiling {
 
 /// The leaves of 2^level steps a side that hold points, made in one pass: it starts with small leaves and doubles their
 /// side whenever there are more than the points can fill. Points too far apart for the largest leaves have no index: it
-/// is given up as soon as that is certain. Memory: about 64 bytes per leaf and 4 bytes per point.
+/// is given up as soon as that is certain. Memory: about 64 bytes per leaf and 4 bytes per point until they are
+/// grouped.
 class LeafIndex {
  public:
   /// @param first_level, last_level  smallest and largest leaf.
@@ -32,8 +33,8 @@ class LeafIndex {
   /// Lowest corner of leaf `leaf`.
   LatticePoint origin(std::size_t leaf) const;
   /// Fills `order` with the indices of all points, leaf by leaf, ascending within a leaf; `begin` gets size() + 1
-  /// starts.
-  void group(PageVector<std::uint32_t>& order, std::vector<std::uint32_t>& begin) const;
+  /// starts. Call once: the leaves of the points are forgotten then.
+  void group(PageVector<std::uint32_t>& order, std::vector<std::uint32_t>& begin);
 
  private:
   std::uint32_t find_or_add(const LatticePoint& key);

@@ -68,8 +68,7 @@ LatticeBox box_of(const PointLeaf& leaf, int log2) {
 
 /// Of a cloud that is not scattered.
 std::vector<std::unique_ptr<PointLeaf>> make_leaves(std::span<const LatticePoint> positions,
-                                                    std::span<const std::uint64_t> ids, const LeafIndex& index,
-                                                    int log2) {
+                                                    std::span<const std::uint64_t> ids, LeafIndex& index, int log2) {
   PageVector<std::uint32_t> order;
   std::vector<std::uint32_t> begin;
   index.group(order, begin);

@@ -5,8 +5,12 @@
 #include <random>
 #include <vector>
 
+#include "survey_of.h"
+
 namespace arris::pipeline {
 namespace {
+
+using test::survey_of;
 
 constexpr std::int32_t kPatchSteps = 3'000;
 
@@ -28,16 +32,6 @@ void add_patch(std::int32_t x0, std::int32_t y0, Points& points) {
     for (std::int32_t y = 0; y < kPatchSteps; y += 10)
       points.push_back({x0 + x, y0 + y, static_cast<std::int32_t>(random() % 60)});
   }
-}
-
-tiling::Survey survey_of(const Points& points) {
-  tiling::Survey survey;
-  survey.lattice = {0.001, {0.0, 0.0, 0.0}};
-  survey.points_in = points.size();
-  for (const LatticePoint& p : points) survey.bounds.include(p);
-  survey.add(points, std::vector<tiling::Mapped>(points.size(), tiling::Mapped::kOk));
-  survey.finish();
-  return survey;
 }
 
 struct Samples {

@@ -7,21 +7,14 @@
 #include <vector>
 
 #include "core/process_memory.h"
+#include "survey_of.h"
 
 namespace arris::pipeline {
 namespace {
 
-constexpr std::uint64_t kGiB = std::uint64_t{1} << 30;
+using test::survey_of;
 
-tiling::Survey survey_of(const std::vector<LatticePoint>& points) {
-  tiling::Survey survey;
-  survey.lattice = {0.001, {0.0, 0.0, 0.0}};
-  survey.points_in = points.size();
-  for (const LatticePoint& p : points) survey.bounds.include(p);
-  survey.add(points, std::vector<tiling::Mapped>(points.size(), tiling::Mapped::kOk));
-  survey.finish();
-  return survey;
-}
+constexpr std::uint64_t kGiB = std::uint64_t{1} << 30;
 
 /// A slanted square of 20 m with points every 2 cm.
 std::vector<LatticePoint> plane() {

@@ -34,7 +34,7 @@ RC_GTEST_PROP(LeafIndex, GroupsEveryPointOnceUnderItsLeafOfTheFirstSizeThatIsFil
   const auto size = *rc::gen::inRange<std::size_t>(1, 3000);
   const auto per_leaf = *rc::gen::inRange<std::size_t>(1, 40);
   const std::vector<LatticePoint> points = test::random_cloud(seed, size);
-  const LeafIndex index(points, kFirstLevel, kLastLevel, per_leaf, 1);
+  LeafIndex index(points, kFirstLevel, kLastLevel, per_leaf, 1);
 
   const std::size_t most = std::max<std::size_t>(points.size() / per_leaf, 1);
   int level = kFirstLevel;
