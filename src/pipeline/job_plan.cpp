@@ -31,6 +31,7 @@ JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, Progress
   JobPlan plan;
   plan.memory_request = {request.memory_bytes, request.threads};
   plan.memory_request.method.per_point = contour_bytes_per_point(request.method);
+  plan.memory_request.method.per_thread = contour_bytes_per_thread(request.method);
   plan.memory = plan_memory(plan.memory_request);
   plan.survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
   refuse_missing_classes(request, plan.survey);

@@ -24,6 +24,11 @@ double contour_bytes_per_point(const ContourParameters& parameters) {
   return kZhengBytesPerPoint;
 }
 
+double contour_bytes_per_thread(const ContourParameters& parameters) {
+  // Where noise makes balls large, liu needs as much as arris.
+  return parameters.by_supervoxels() ? kZhengBytesPerThread : std::max(kArrisBytesPerThread, kLiuBytesPerThread);
+}
+
 std::string_view ContourParameters::name() const {
   return method == Method::kArris ? "arris" : method == Method::kLiu ? "liu" : "zheng";
 }

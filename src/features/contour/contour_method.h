@@ -52,6 +52,7 @@ void finish_record(ContourRecord& record, const ContourParameters& parameters);
 
 /// Bytes beyond the tile itself, for predictions.
 double contour_bytes_per_point(const ContourParameters& parameters);
+double contour_bytes_per_thread(const ContourParameters& parameters);
 /// Whatever the method.
 extern const double kContourBytesPerThread;
 
