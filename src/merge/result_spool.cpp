@@ -2,37 +2,34 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 
 #include "core/error.h"
 #include "core/file_descriptor.h"
+#include "merge/result_coding.h"
 
 namespace arris::merge {
 namespace {
 
-/// ContourRecord on disk: no padding bytes whose content would be undefined.
-struct DiskRecord {
-  std::uint64_t id;
-  std::uint32_t votes;
-  float gap_deg;
-  float fold_strength;
-  float fold_angle_deg;
-  std::uint32_t classes;
-  float score;
-  float to_edge[3];
-  std::uint32_t reserved;
+/// Before every run of records.
+struct RunHead {
+  std::uint32_t bytes = 0;  ///< Of what follows.
+  std::uint32_t records = 0;
 };
-static_assert(sizeof(DiskRecord) == 48);
+constexpr std::size_t kRunRecords = 8192;
+/// More than a run of so many records can take.
+constexpr std::size_t kMostRunBytes = 64 * kRunRecords;
 
-std::uint64_t checksum(std::span<const DiskRecord> records) {
-  std::uint64_t sum = 0;
-  for (const DiskRecord& record : records) sum += XXH3_64bits(&record, sizeof record);
-  return sum;
+void append_run(std::span<const ContourRecord> records, std::uint64_t first_id, PageVector<std::byte>& out) {
+  const std::size_t begin = out.size();
+  out.resize(begin + sizeof(RunHead));
+  encode_results(records, first_id, out);
+  const RunHead head{static_cast<std::uint32_t>(out.size() - begin - sizeof(RunHead)),
+                     static_cast<std::uint32_t>(records.size())};
+  std::memcpy(out.data() + begin, &head, sizeof head);
 }
 
 }  // namespace
@@ -46,34 +43,29 @@ std::filesystem::path ResultSpool::bucket_path(std::size_t bucket) const {
 
 void ResultSpool::append(ContourRecords records) {
   std::sort(records.begin(), records.end(), [](const ContourRecord& a, const ContourRecord& b) { return a.id < b.id; });
-  PageVector<DiskRecord> run;
+  PageVector<std::byte> runs;
   for (std::size_t begin = 0; begin < records.size();) {
-    const std::size_t bucket = static_cast<std::size_t>(records[begin].id / kBucketPoints);
+    const std::uint64_t bucket = records[begin].id / kBucketPoints;
     if (records[begin].id >= points_) throw IoError("a tile produced a result for a point that does not exist");
-    std::size_t end = begin;
-    run.clear();
-    for (; end < records.size() && records[end].id / kBucketPoints == bucket; ++end) {
-      const ContourRecord& r = records[end];
-      run.push_back({r.id,
-                     r.votes,
-                     r.gap_deg,
-                     r.fold_strength,
-                     r.fold_angle_deg,
-                     r.classes,
-                     r.score,
-                     {r.to_edge[0], r.to_edge[1], r.to_edge[2]},
-                     0});
+    runs.clear();
+    std::uint64_t sum = 0, count = 0;
+    while (begin < records.size() && records[begin].id / kBucketPoints == bucket) {
+      std::size_t end = begin;
+      while (end < records.size() && end - begin < kRunRecords && records[end].id / kBucketPoints == bucket) ++end;
+      const std::size_t run_begin = runs.size();
+      append_run(std::span(records).subspan(begin, end - begin), bucket * kBucketPoints, runs);
+      sum += XXH3_64bits(runs.data() + run_begin, runs.size() - run_begin);
+      count += end - begin;
+      begin = end;
     }
-    const std::uint64_t sum = checksum(run);
-    {
-      const std::lock_guard lock(mutex_);
-      const FileDescriptor file = FileDescriptor::open(bucket_path(bucket), O_WRONLY | O_CREAT | O_APPEND);
-      file.write_all(std::as_bytes(std::span(run)));
-      buckets_[bucket].records += run.size();
-      buckets_[bucket].checksum += sum;
-      bytes_on_disk_ += run.size() * sizeof(DiskRecord);
-    }
-    begin = end;
+    const std::lock_guard lock(mutex_);
+    const FileDescriptor file =
+        FileDescriptor::open(bucket_path(static_cast<std::size_t>(bucket)), O_WRONLY | O_CREAT | O_APPEND);
+    file.write_all(runs);
+    Bucket& written = buckets_[static_cast<std::size_t>(bucket)];
+    written.records += count;
+    written.checksum += sum;
+    bytes_on_disk_ += runs.size();
   }
 }
 
@@ -84,35 +76,33 @@ void ResultSpool::load(std::size_t bucket, PageVector<PointResult>& results) {
   if (expected.records == 0) return;
   const std::filesystem::path path = bucket_path(bucket);
   const FileDescriptor file = FileDescriptor::open(path, O_RDONLY);
-  std::uint64_t records = 0;
-  std::uint64_t sum = 0;
-  PageVector<DiskRecord> block(32 * 1024);
-  for (;;) {
-    const std::size_t bytes = file.read_some(std::as_writable_bytes(std::span(block)));
-    const std::span<const DiskRecord> read(block.data(), bytes / sizeof(DiskRecord));
-    sum += checksum(read);
-    records += read.size();
-    for (const DiskRecord& r : read) {
-      if (r.id < first_id || r.id - first_id >= results.size()) continue;  // Damage: the checksum below will not match.
+  std::uint64_t count = 0, sum = 0;
+  bool sound = true;
+  PageVector<std::byte> run;
+  ContourRecords records;
+  while (sound && count < expected.records) {
+    RunHead head;
+    sound = file.read_some(std::as_writable_bytes(std::span(&head, 1))) == sizeof head && head.records <= kRunRecords &&
+            head.bytes <= kMostRunBytes;
+    if (!sound) break;
+    run.resize(sizeof head + head.bytes);
+    std::memcpy(run.data(), &head, sizeof head);
+    const std::span<std::byte> bytes = std::span(run).subspan(sizeof head);
+    sound = file.read_some(bytes) == bytes.size() && decode_results(bytes, head.records, first_id, records);
+    sum += XXH3_64bits(run.data(), run.size());
+    count += head.records;
+    for (const ContourRecord& r : records) {
+      if (r.id - first_id >= results.size()) continue;  // Damage: the checksum below will not match.
       PointResult& to = results[r.id - first_id];
       ContourRecord combined = to.record(r.id);
-      combine(combined, {r.id,
-                         static_cast<std::uint8_t>(r.classes),
-                         r.votes,
-                         r.gap_deg,
-                         r.fold_strength,
-                         r.fold_angle_deg,
-                         r.score,
-                         {r.to_edge[0], r.to_edge[1], r.to_edge[2]}});
+      combine(combined, r);
       to = {combined.gap_deg, combined.fold_strength, combined.fold_angle_deg, combined.votes,
             combined.classes, combined.score,         combined.to_edge};
     }
-    if (bytes < block.size() * sizeof(DiskRecord)) break;
   }
-  if (records != expected.records || sum != expected.checksum) {
-    throw IoError(fmt::format(
-        "{}: temporary results were damaged on disk ({} records, {} expected); run again, and check the disk",
-        path.string(), records, expected.records));
+  if (!sound || count != expected.records || sum != expected.checksum) {
+    throw IoError(
+        fmt::format("{}: temporary results were damaged on disk; run again, and check the disk", path.string()));
   }
   std::filesystem::remove(path);
 }

@@ -30,7 +30,7 @@ struct PointResult {
 
 /// Records are appended to one file per range of ids (a bucket). A bucket is read back as a dense array into which its
 /// records are combined; combining is commutative, so nothing depends on the order in which tiles finish. Memory: one
-/// bucket at a time, kBucketPoints * sizeof(PointResult) = 18 MiB. Temporary disk: 48 bytes per record.
+/// bucket at a time, kBucketPoints * sizeof(PointResult) = 18 MiB. Temporary disk: see encode_results().
 class ResultSpool {
  public:
   static constexpr std::uint64_t kBucketPoints = 1U << 19;
@@ -51,7 +51,7 @@ class ResultSpool {
  private:
   struct Bucket {
     std::uint64_t records = 0;
-    std::uint64_t checksum = 0;  ///< Sum of the XXH3 of the appended runs' records: independent of their order.
+    std::uint64_t checksum = 0;  ///< Sum of the XXH3 of the runs: independent of their order.
   };
   std::filesystem::path bucket_path(std::size_t bucket) const;
 

@@ -15,8 +15,8 @@ namespace {
 constexpr double kMostRadiusSteps = 1 << 29;
 /// On disk per stored point where halos are whole: the spool, as tile files go at once. Measured.
 constexpr double kFollowedBytesPerPoint = 6.5;
-/// 48 for nearly one point in six, as of towns and of real scans but for those of vegetation, where it is one in four.
-constexpr double kZhengResultBytesPerPoint = 7.8;
+/// 8 for nearly one point in six, as of towns and of real scans but for those of vegetation, where it is one in four.
+constexpr double kZhengResultBytesPerPoint = 1.4;
 
 }  // namespace
 

@@ -62,18 +62,15 @@ double likely_tiles_bytes(const TileJob& job) {
   return bytes;
 }
 
-/// On disk, where a tile file goes at once when its tile is analysed: files of the tiles in flight; of every other tile
-/// its spool or its results.
+/// On disk, where a tile file goes at once when its tile is analysed: files and results of the tiles in flight; of every
+/// other tile its spool or its results.
 double likely_followed_bytes(const TileJob& job, const TileNeeds& needs, double points, double stored) {
   const double covered = points * job.tiles.duplication;
-  double in_flight = 0.0, beside = 0.0;  // Shares of the scan: of all tiles in flight, of all but the largest.
-  for (const double tile : largest_tiles(job)) {
-    if (in_flight > 0.0) beside += tile / covered;
-    in_flight += tile / covered;
-  }
-  const double of_others =
-      std::max(stored * needs.stored_bytes_per_point, points * needs.likely_result_bytes_per_point);
-  return in_flight * stored * kTileFileLikelyBytes + (1.0 - beside) * of_others +
+  double in_flight = 0.0;  // Share of the scan.
+  for (const double tile : largest_tiles(job)) in_flight += tile / covered;
+  const double results = points * needs.likely_result_bytes_per_point;
+  const double of_others = std::max(stored * needs.stored_bytes_per_point, results);
+  return in_flight * (stored * kTileFileLikelyBytes + results) + (1.0 - in_flight) * of_others +
          static_cast<double>(job.memory.tile_workers) * static_cast<double>(kLikelyBytesPerTile);
 }
 

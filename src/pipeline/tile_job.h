@@ -41,7 +41,7 @@ struct TileNeeds {
   double stored_bytes_per_point = 14.0;
   double halo_fill = 1.0;  ///< Plans count the cells that a halo meets whole; this share of their points lies in it.
   /// On disk, of results: what scans usually need, and what is asked of the disk before work.
-  double likely_result_bytes_per_point = 2.5;  ///< 48 for one point in twenty.
+  double likely_result_bytes_per_point = 2.0;  ///< 8 to 30 for one point in ten.
   double most_result_bytes_per_point = 8.0;
   std::uint64_t further_temp_bytes = 0;  ///< On disk at the same time.
 };

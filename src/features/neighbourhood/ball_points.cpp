@@ -1,5 +1,6 @@
 #include "features/neighbourhood/ball_points.h"
 
+#include <algorithm>
 #include <type_traits>
 
 #include "features/numerics/simd_compact.h"
@@ -7,11 +8,16 @@
 namespace arris {
 namespace {
 
-/// Writes up to simd::kPadding entries past the members.
+/// Candidates that are looked at before there must be room for more members: a multiple of simd::kPadding.
+constexpr std::size_t kBlock = 2048;
+
+/// Candidates from `begin` on, at most kBlock of them; appends to `n` members, and writes up to simd::kPadding entries
+/// past them. @return members.
 template <class T>
-std::size_t collect(const CandidateSet<T>& c, const BallQuery<T>& ball, double inverse, BallPoints& points) {
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < c.count; ++i) {
+std::size_t collect(const CandidateSet<T>& c, std::size_t begin, const BallQuery<T>& ball, double inverse,
+                    BallPoints& points, std::size_t n) {
+  const std::size_t end = std::min(c.count, begin + kBlock);
+  for (std::size_t i = begin; i < end; ++i) {
     const T dx = bounded<T>(c.x[i] - ball.x);
     const T dy = bounded<T>(c.y[i] - ball.y);
     const T dz = bounded<T>(c.z[i] - ball.z);
@@ -53,13 +59,14 @@ ARRIS_TARGET_V4 std::size_t keep_avx512(const BallPoints& p, double radius2, Bal
   return n;
 }
 
-ARRIS_TARGET_V4 std::size_t collect_avx512(const CandidateSet<float>& c, const BallQuery<float>& ball, double inverse,
-                                           BallPoints& points) {
+ARRIS_TARGET_V4 std::size_t collect_avx512(const CandidateSet<float>& c, std::size_t begin,
+                                           const BallQuery<float>& ball, double inverse, BallPoints& points,
+                                           std::size_t n) {
   const float* const from[3] = {c.x.data(), c.y.data(), c.z.data()};
   double* const to[3] = {points.x.data(), points.y.data(), points.z.data()};
   const float centre[3] = {ball.x, ball.y, ball.z};
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < simd::padded(c.count); i += 16) {  // The padding is outside of every ball.
+  const std::size_t end = std::min(simd::padded(c.count), begin + kBlock);
+  for (std::size_t i = begin; i < end; i += 16) {  // The padding is outside of every ball.
     __m512 d[3];
     for (int axis = 0; axis < 3; ++axis) {
       d[axis] = _mm512_sub_ps(_mm512_loadu_ps(from[axis] + i), _mm512_set1_ps(centre[axis]));
@@ -80,13 +87,13 @@ ARRIS_TARGET_V4 std::size_t collect_avx512(const CandidateSet<float>& c, const B
   return n;
 }
 
-ARRIS_TARGET_V3 std::size_t collect_avx2(const CandidateSet<float>& c, const BallQuery<float>& ball, double inverse,
-                                         BallPoints& points) {
+ARRIS_TARGET_V3 std::size_t collect_avx2(const CandidateSet<float>& c, std::size_t begin, const BallQuery<float>& ball,
+                                         double inverse, BallPoints& points, std::size_t n) {
   const float* const from[3] = {c.x.data(), c.y.data(), c.z.data()};
   double* const to[3] = {points.x.data(), points.y.data(), points.z.data()};
   const float centre[3] = {ball.x, ball.y, ball.z};
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < simd::padded(c.count); i += 8) {
+  const std::size_t end = std::min(simd::padded(c.count), begin + kBlock);
+  for (std::size_t i = begin; i < end; i += 8) {
     __m256 d[3];
     for (int axis = 0; axis < 3; ++axis) {
       d[axis] = _mm256_sub_ps(_mm256_loadu_ps(from[axis] + i), _mm256_set1_ps(centre[axis]));
@@ -110,14 +117,15 @@ ARRIS_TARGET_V3 std::size_t collect_avx2(const CandidateSet<float>& c, const Bal
 #endif
 
 template <class T>
-std::size_t collect_best(const CandidateSet<T>& c, const BallQuery<T>& ball, double inverse, BallPoints& points) {
+std::size_t collect_best(const CandidateSet<T>& c, std::size_t begin, const BallQuery<T>& ball, double inverse,
+                         BallPoints& points, std::size_t n) {
 #if ARRIS_X86_KERNELS
   if constexpr (std::is_same_v<T, float>) {
-    if (simd::widest_bytes() == 64) return collect_avx512(c, ball, inverse, points);
-    if (simd::widest_bytes() == 32) return collect_avx2(c, ball, inverse, points);
+    if (simd::widest_bytes() == 64) return collect_avx512(c, begin, ball, inverse, points, n);
+    if (simd::widest_bytes() == 32) return collect_avx2(c, begin, ball, inverse, points, n);
   }
 #endif
-  return collect(c, ball, inverse, points);
+  return collect(c, begin, ball, inverse, points, n);
 }
 
 }  // namespace
@@ -125,7 +133,7 @@ std::size_t collect_best(const CandidateSet<T>& c, const BallQuery<T>& ball, dou
 void BallPoints::make_room(std::size_t most) {
   const std::size_t room = simd::padded(most) + simd::kPadding;
   if (x.size() >= room) return;
-  for (auto* column : {&x, &y, &z}) column->resize(room);
+  for (auto* column : {&x, &y, &z}) column->resize(std::max(room, column->size() + column->size() / 2));
 }
 
 void BallPoints::finish(std::size_t points) {
@@ -135,8 +143,13 @@ void BallPoints::finish(std::size_t points) {
 
 template <class T>
 void collect_ball(const CandidateSet<T>& c, const BallQuery<T>& ball, double spacing, BallPoints& points) {
-  points.make_room(c.count);
-  points.finish(collect_best(c, ball, 1.0 / spacing, points));
+  std::size_t n = 0;
+  // Candidates are many times as many as members where few points have many around them.
+  for (std::size_t begin = 0; begin < c.count; begin += kBlock) {
+    points.make_room(n + kBlock);
+    n = collect_best(c, begin, ball, 1.0 / spacing, points, n);
+  }
+  points.finish(n);
 }
 
 void keep_within(const BallPoints& points, double radius, BallPoints& kept) {

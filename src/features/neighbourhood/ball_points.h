@@ -33,7 +33,7 @@ struct BallPoints {
   std::size_t count = 0;
 
   std::size_t padded_count() const { return simd::padded(count); }
-  /// Makes room for `most` points and a vector more.
+  /// Makes room for `most` points and a vector more; keeps what is there.
   void make_room(std::size_t most);
   /// Sets the number of points and pads the arrays.
   void finish(std::size_t points);
