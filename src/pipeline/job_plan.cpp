@@ -16,7 +16,9 @@ constexpr double kMostRadiusSteps = 1 << 29;
 /// On disk per stored point where halos are whole: the spool, as tile files go at once. Measured.
 constexpr double kFollowedBytesPerPoint = 6.5;
 /// 8 for nearly one point in six, as of towns and of real scans but for those of vegetation, where it is one in four.
-constexpr double kZhengResultBytesPerPoint = 1.4;
+constexpr double kZhengResultBytesPerPoint = 2.0;
+/// Of the bound of a tile, which allows for more contour points than most scans have.
+constexpr double kArrisLikelyShare = 0.87;
 
 }  // namespace
 
@@ -32,6 +34,8 @@ JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, Progress
   plan.memory_request = {request.memory_bytes, request.threads};
   plan.memory_request.method.per_point = contour_bytes_per_point(request.method);
   plan.memory_request.method.per_thread = contour_bytes_per_thread(request.method);
+  if (request.method.method == ContourParameters::Method::kArris)
+    plan.memory_request.method.likely_share = kArrisLikelyShare;
   plan.memory = plan_memory(plan.memory_request);
   plan.survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
   refuse_missing_classes(request, plan.survey);
