@@ -172,15 +172,6 @@ std::size_t CellCounts::remove(std::span<const LatticePoint> points,
   return missing;
 }
 
-void CellCounts::merge(const CellCounts& other) {
-  while (impl_->level < other.impl_->level) impl_->coarsen();
-  other.for_each_by_leaf([&](const LatticeBox& cell, std::uint64_t count) {
-    add(LatticePoint{static_cast<std::int32_t>(cell.min[0]), static_cast<std::int32_t>(cell.min[1]),
-                     static_cast<std::int32_t>(cell.min[2])},
-        count);
-  });
-}
-
 std::uint64_t CellCounts::count_at(const LatticePoint& position) const {
   const int level = impl_->level;
   const Cell cell = cell_of(position, level);

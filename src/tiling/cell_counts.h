@@ -31,8 +31,6 @@ class CellCounts {
   void add(std::span<const LatticePoint> points);
   /// As `count` times add() of the same point, count >= 0.
   void add(const LatticePoint& point, std::uint64_t count);
-  /// As adding all points of the other, which began at the same level and has the same max_leaves.
-  void merge(const CellCounts& other);
   /// Takes points away again. Calls emptied(cell box) for every cell whose last point went, once per such event.
   /// Returns the number of points that were not there to be taken (0 unless the caller mixed up its sets); they change
   /// nothing.

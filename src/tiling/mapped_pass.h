@@ -38,9 +38,4 @@ class MappedReader {
 void for_each_mapped_batch(io::InputSet& inputs, const Lattice& lattice, std::string_view phase, ProgressSink& progress,
                            const CancelToken& cancel, const std::function<void(const MappedPoints&)>& use);
 
-/// The same in no order: `lanes` calls of use() at most at a time, each with another number in [0, lanes).
-void for_each_mapped_batch_unordered(io::InputSet& inputs, const Lattice& lattice, std::string_view phase,
-                                     ProgressSink& progress, const CancelToken& cancel, std::size_t lanes,
-                                     const std::function<void(std::size_t lane, const MappedPoints&)>& use);
-
 }  // namespace arris::tiling

@@ -1,19 +1,12 @@
 #include "tiling/survey.h"
 
 #include <algorithm>
-#include <utility>
 
-#include "core/parallel.h"
 #include "tiling/lattice_choice.h"
 #include "tiling/mapped_pass.h"
 #include "tiling/spacing.h"
 
 namespace arris::tiling {
-namespace {
-
-constexpr int kMostLanes = 2;  // Each has counts of its own, and reading keeps no more of them busy.
-
-}  // namespace
 
 void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome) {
   points_in += positions.size();
@@ -35,15 +28,6 @@ void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped
   }
 }
 
-void Survey::merge(const Survey& other) {
-  counts.merge(other.counts);
-  bounds.include(other.bounds);
-  points_in += other.points_in;
-  dropped_nonfinite += other.dropped_nonfinite;
-  dropped_out_of_range += other.dropped_out_of_range;
-  dropped_excluded += other.dropped_excluded;
-}
-
 void Survey::finish() {
   spacing = lattice.step * estimate_spacing(counts, bounds).steps;
 }
@@ -63,14 +47,9 @@ Survey survey_inputs(io::InputSet& inputs, const SurveyOptions& options, Progres
     }
   }
 
-  // What is counted does not depend on who counts it.
-  const auto lanes = static_cast<std::size_t>(std::min(loop_threads(), kMostLanes));
-  std::vector<Survey> parts(lanes);
-  for_each_mapped_batch_unordered(
-      inputs, choice.lattice(), "survey", progress, cancel, lanes,
-      [&](std::size_t lane, const MappedPoints& points) { parts[lane].add(points.positions, points.outcome); });
-  Survey survey = std::move(parts.front());
-  for (std::size_t lane = 1; lane < lanes; ++lane) survey.merge(parts[lane]);
+  Survey survey;
+  for_each_mapped_batch(inputs, choice.lattice(), "survey", progress, cancel,
+                        [&](const MappedPoints& points) { survey.add(points.positions, points.outcome); });
   survey.lattice = choice.lattice();
   survey.finish();
   return survey;

@@ -38,8 +38,6 @@ struct Survey {
 
   /// Counts a batch of mapped points (equal lengths).
   void add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome);
-  /// As adding what was added to another survey of the same inputs that is not completed either.
-  void merge(const Survey& other);
   /// Completes the survey after the last batch: sets spacing.
   void finish();
 };

@@ -100,20 +100,6 @@ RC_GTEST_PROP(CellCounts, ByLeaf_VisitsTheSameCellsInAnOrderOfTheSetOnly, ()) {
   RC_ASSERT(visited() == before);
 }
 
-RC_GTEST_PROP(CellCounts, Merged_CountAsAllAtOnce, ()) {
-  const auto points = test::any_cloud(1, 600);
-  const auto max_leaves = *rc::gen::inRange<std::size_t>(1, 100).as("max leaves");
-  const auto cut = *rc::gen::inRange<std::size_t>(0, points.size() + 1).as("points in the first part");
-  CellCounts whole(0, max_leaves), part(0, max_leaves), rest(0, max_leaves);
-  whole.add(points);
-  part.add(std::span(points).first(cut));
-  rest.add(std::span(points).subspan(cut));
-  part.merge(rest);
-  RC_ASSERT(part.level() == whole.level());
-  RC_ASSERT(part.total() == whole.total());
-  RC_ASSERT(listed(part) == listed(whole));
-}
-
 RC_GTEST_PROP(CellCounts, Coarsened_IsTheExactUnionOfCells, ()) {
   const auto points = test::any_cloud(1, 300);
   CellCounts counts(*rc::gen::inRange(0, 12));
