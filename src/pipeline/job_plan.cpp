@@ -36,7 +36,6 @@ JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, Progress
   plan.memory_request.method.per_thread = contour_bytes_per_thread(request.method);
   if (request.method.method == ContourParameters::Method::kArris)
     plan.memory_request.method.likely_share = kArrisLikelyShare;
-  if (request.method.by_supervoxels()) plan.memory_request.largest_tile_points = kLargestWideTilePoints;
   plan.memory = plan_memory(plan.memory_request);
   plan.survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
   refuse_missing_classes(request, plan.survey);

@@ -19,6 +19,8 @@ constexpr std::uint64_t kLeastSpoolBytes = 4 * kMiB;
 constexpr std::uint64_t kPassBytes = 48 * kMiB;
 /// Queries, the index of their regions, blocks of tile files.
 constexpr std::uint64_t kWidenBytes = 32 * kMiB;
+/// Beyond this a larger tile saves nothing: its halo is already a few percent of its core.
+constexpr std::uint64_t kLargestTilePoints = 2'000'000;
 /// On top of the least budget that is named: what is resident differs from run to run.
 constexpr std::uint64_t kSpareBytes = 4 * kMiB;
 /// Kept free: the allocator's fragments and what predictions miss.
@@ -101,9 +103,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   const std::uint64_t share = plan.tiles_bytes / plan.tile_workers;
   // Fewer workers have no larger tiles than more will have with a little more memory: a larger budget never gives
   // smaller tiles.
-  const std::uint64_t most = plan.tile_workers < request.threads
-                                 ? std::min(kFairTilePoints, request.largest_tile_points)
-                                 : request.largest_tile_points;
+  const std::uint64_t most = plan.tile_workers < request.threads ? kFairTilePoints : kLargestTilePoints;
   plan.max_tile_points = plan.points_within(share, most);
   return plan;
 }

@@ -17,22 +17,12 @@ struct MethodBytes {
   double likely_share = 0.95;
 };
 
-constexpr std::uint64_t kLeastTilePoints = 50'000;
-/// Smaller tiles are mostly halo: rather fewer in flight, each analysed by more threads.
-constexpr std::uint64_t kFairTilePoints = 1'000'000;
-/// Beyond this a larger tile saves nothing: its halo is already a few percent of its core, and the system clears more
-/// memory for it.
-constexpr std::uint64_t kLargestTilePoints = 1'000'000;
-/// The same where halos are wide and whole.
-constexpr std::uint64_t kLargestWideTilePoints = 2'000'000;
-
 struct MemoryRequest {
   std::uint64_t budget_bytes = 0;
   int threads = 1;
   std::uint64_t kept_bytes = 0;  ///< What will be resident besides, and is not yet.
   std::uint64_t held_bytes = 0;  ///< What is resident besides program and survey, and stays.
   MethodBytes method{};
-  std::uint64_t largest_tile_points = kLargestTilePoints;
 };
 
 /// The division. fixed_bytes + tile_workers tiles of max_tile_points fit into the budget.
@@ -61,5 +51,9 @@ MemoryPlan plan_memory(const MemoryRequest& request);
 
 /// The budget that lets one tile of `points` covered points be processed alone.
 std::uint64_t least_budget_bytes(std::uint64_t points, const MemoryRequest& request);
+
+constexpr std::uint64_t kLeastTilePoints = 50'000;
+/// Smaller tiles are mostly halo: rather fewer in flight, each analysed by more threads.
+constexpr std::uint64_t kFairTilePoints = 1'000'000;
 
 }  // namespace arris::pipeline

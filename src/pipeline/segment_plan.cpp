@@ -21,7 +21,7 @@ namespace {
 constexpr double kComponentBytesPerPoint = 1.0;
 constexpr double kPublishedComponentBytesPerPoint = 2.5;
 /// Most of the time of a tile is the search for neighbours, when most of its bytes are there.
-constexpr double kBesideAnother = 0.65;
+constexpr double kBesideAnother = 0.75;
 
 /// What a scan of n points keeps in memory besides its tiles.
 std::uint64_t kept_bytes(std::uint64_t points, bool published) {
