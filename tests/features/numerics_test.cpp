@@ -409,6 +409,29 @@ TEST(PlanarDiameter, RandomSets_AgreeWithAllPairs) {
   }
 }
 
+/// Of rotated lattices: lines of three and more points, parallel sides and places next to each other but for rounding.
+TEST(PlanarDiameter, RotatedLattices_AgreeWithAllPairsButForRounding) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> angle(0.0, 3.2);
+  std::vector<PlanarPoint> hull;
+  for (int round = 0; round < 20'000; ++round) {
+    std::uniform_int_distribution<int> wide(-8, 8), narrow(-1 - round % 4, 1 + round % 4);
+    const double c = std::cos(angle(random)), s = std::sin(angle(random)), skew = round % 3 == 0 ? 0.0 : angle(random);
+    std::vector<PlanarPoint> points(4 + static_cast<std::size_t>(round) % 60);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double x = wide(random), y = narrow(random), behind = 1e-16 * wide(random);
+      points[i] = {c * x - s * y + behind, s * x + c * (y + skew * x) - behind, 0.0, i};
+    }
+    double longest2 = 0.0;
+    for (const PlanarPoint& a : points)
+      for (const PlanarPoint& b : points)
+        longest2 = std::max(longest2, (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
+    const Diameter found = planar_diameter(points, hull);
+    ASSERT_LE(found.length2, longest2) << round;
+    ASSERT_GE(found.length2, longest2 * (1.0 - 1e-12)) << round;
+  }
+}
+
 TEST(PlanarDiameter, CoincidentPoints_HaveNone) {
   std::vector<PlanarPoint> points(5, PlanarPoint{1.0, 2.0, 0.0, 0});
   std::vector<PlanarPoint> hull;

@@ -10,6 +10,15 @@ double turn(const PlanarPoint& o, const PlanarPoint& a, const PlanarPoint& b) {
   return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
+/// Computed turns are off by less than this share of the squared extent.
+constexpr double kTurnMargin = 1e-13;
+
+double reach2(const std::vector<PlanarPoint>& points) {
+  double reach2 = 0.0;
+  for (const PlanarPoint& p : points) reach2 = std::max(reach2, p.x * p.x + p.y * p.y);
+  return reach2;
+}
+
 double squared_length(const PlanarPoint& a, const PlanarPoint& b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
@@ -64,19 +73,22 @@ Diameter planar_diameter(std::vector<PlanarPoint>& points, std::vector<PlanarPoi
   const std::size_t h = points.size();
   if (h == 2) longest.offer(points[0], points[1]);
   if (h < 3) return longest.best;
-  // For every edge the opposite vertex; it moves forward only.
+  // For every edge the vertices farthest from it, which move forward only. All that are as far but for rounding, and
+  // all on the way, are looked at: collinear places and places next to each other may all be vertices, as computed.
+  const double margin = kTurnMargin * reach2(points);
   std::size_t opposite = 1;
   for (std::size_t i = 0; i < h; ++i) {
-    const std::size_t next = (i + 1) % h;
-    for (std::size_t steps = 0; steps < h; ++steps) {
-      const std::size_t further = (opposite + 1) % h;
-      if (!(turn(points[i], points[next], points[further]) > turn(points[i], points[next], points[opposite]))) break;
-      opposite = further;
+    const PlanarPoint& from = points[i];
+    const PlanarPoint& to = points[(i + 1) % h];
+    double farthest = turn(from, to, points[opposite]);
+    for (std::size_t steps = 0, at = opposite; steps < h; ++steps, at = (at + 1) % h) {
+      const double height = turn(from, to, points[at]);
+      if (height < farthest - margin) break;
+      if (height > farthest + margin) opposite = at;
+      farthest = std::max(farthest, height);
+      longest.offer(from, points[at]);
+      longest.offer(to, points[at]);
     }
-    longest.offer(points[i], points[opposite]);
-    longest.offer(points[next], points[opposite]);
-    longest.offer(points[i], points[(opposite + 1) % h]);  // Parallel edges: both ends of the opposite one.
-    longest.offer(points[next], points[(opposite + 1) % h]);
   }
   return longest.best;
 }

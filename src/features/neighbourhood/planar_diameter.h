@@ -18,9 +18,10 @@ struct Diameter {
   double length2 = 0;  ///< 0 if all points coincide (or there are fewer than two).
 };
 
-/// Convex hull (monotone chain) and rotating calipers. Ties of the computed length go to the pair that is first in
-/// canonical order. O(n log n). `points` is reordered and cut down to its hull; `hull` is reusable memory. Law: bits
-/// depend on the set only, not on its order.
+/// Convex hull (monotone chain) and rotating calipers. No pair is longer by more than rounding (1e-12 of its length).
+/// Ties of the computed length go to the pair that is first in canonical order. O(n log n); O(h^2) for h vertices of
+/// which most are in one place or on one line but for rounding. `points` is reordered and cut down to its hull; `hull`
+/// is reusable memory. Law: bits depend on the set only, not on its order.
 Diameter planar_diameter(std::vector<PlanarPoint>& points, std::vector<PlanarPoint>& hull);
 
 }  // namespace arris
