@@ -12,7 +12,7 @@ struct MethodBytes {
   double per_point = 0.0;
   double per_thread = kContourBytesPerThread;
   /// Of its bound, what is likely to be resident of a tile while another one is at its peak.
-  double beside_another = 0.5;
+  double beside_another = 0.55;
   /// The same of a tile at its peak, of which the former is a share. Measured.
   double likely_share = 0.95;
 };

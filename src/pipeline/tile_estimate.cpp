@@ -48,7 +48,7 @@ double likely_followed_bytes(const TileJob& job, const TileNeeds& needs, double 
 /// all tiles are analysed that may ask for it; if none is, all files stay. Scans lie between.
 double likely_waiting_bytes(const TileJob& job, const TileNeeds& needs, double points, double stored) {
   constexpr double kSpoolBytes = 7.0;     // Per stored point.
-  constexpr double kUnprovenShare = 0.65;  // Measured.
+  constexpr double kUnprovenShare = 0.77;  // Measured.
   const double all = stored * needs.stored_bytes_per_point + points * needs.likely_result_bytes_per_point +
                      static_cast<double>(job.tiles.tiles.size()) * kLikelyBytesPerTile;
   if (job.asks_again) return all;  // Such queries may reach anywhere.
