@@ -47,7 +47,7 @@ double likely_followed_bytes(const TileJob& job, const TileNeeds& needs, double 
 /// On disk, where tile files wait for the queries of the tiles around them. If all queries are proven a file goes when
 /// all tiles are analysed that may ask for it; if none is, all files stay. Scans lie between.
 double likely_waiting_bytes(const TileJob& job, const TileNeeds& needs, double points, double stored) {
-  constexpr double kSpoolBytes = 7.0;     // Per stored point.
+  constexpr double kSpoolBytes = 7.0;      // Per stored point.
   constexpr double kUnprovenShare = 0.77;  // Measured.
   const double all = stored * needs.stored_bytes_per_point + points * needs.likely_result_bytes_per_point +
                      static_cast<double>(job.tiles.tiles.size()) * kLikelyBytesPerTile;
@@ -74,14 +74,14 @@ double likely_tiles_bytes(const TileJob& job) {
   const Likely likely = likely_of(job);
   double bytes = likely.of_scratch * static_cast<double>(job.memory.scratch_bytes) + likely.buffers_bytes, share = 1.0;
   for (const double points : largest_tiles(job)) {
-    bytes += share * job.memory.method.likely_share * static_cast<double>(job.memory.tile_bytes(static_cast<std::uint64_t>(points)));
+    bytes += share * job.memory.method.likely_share *
+             static_cast<double>(job.memory.tile_bytes(static_cast<std::uint64_t>(points)));
     share = job.memory.method.beside_another;
   }
   return bytes;
 }
 
-/// As against fixed_bytes and tile_bytes(), which bound it: buffers are seldom full.
-/// Measured (bench/README.md).
+/// As against fixed_bytes and tile_bytes(), which bound it: buffers are seldom full. Measured (bench/README.md).
 double likely_peak_bytes(const TileJob& job, double tiles_bytes) {
   constexpr double kProgramBytes = 40e6;  // All that stays where several tiles take the room of the survey in turn.
   constexpr double kThreadBytes = 6e6;    // Of every thread but the first: what is read ahead, a heap of its own.
