@@ -20,8 +20,8 @@ enum FieldBit : unsigned {
   kToEdge = 1U << 7,
 };
 constexpr unsigned kIdCode = 3;
-/// Head, id, votes, four numbers and the way to the edge.
-constexpr std::size_t kMostRecordBytes = 2 + 4 + 4 + 4 * 4 + 12;
+/// Head, id, votes in sevens of bits, four numbers and the way to the edge.
+constexpr std::size_t kMostRecordBytes = 2 + 4 + 5 + 4 * 4 + 12;
 
 std::uint32_t bits(float value) {
   return std::bit_cast<std::uint32_t>(value);

@@ -76,6 +76,20 @@ RC_GTEST_PROP(ResultCoding, BytesCutOrChanged_AreRefusedOrReadWithinThem, ()) {
   RC_ASSERT(read.size() <= records.size());
 }
 
+/// Nothing is written past the room made for them: a sanitizer would see it.
+TEST(ResultCoding, LargestRecords_AreReadAsWritten) {
+  constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+  ContourRecords records;
+  for (std::uint64_t i = 1; i <= 200; ++i)
+    records.push_back({i << 24, 255, kMost, -1.0F, -2.0F, -3.0F, -4.0F, {-5.0F, -6.0F, -7.0F}});
+  PageVector<std::byte> bytes;
+  encode_results(records, 0, bytes);
+  EXPECT_EQ(bytes.size(), records.size() * 39);
+  ContourRecords read;
+  ASSERT_TRUE(decode_results(bytes, records.size(), 0, read));
+  EXPECT_TRUE(std::equal(read.begin(), read.end(), records.begin(), records.end(), same_bits));
+}
+
 TEST(ResultCoding, UsualRecords_TakeFewBytes) {
   PageVector<std::byte> bytes;
   encode_results(ContourRecords{{7, kBoundary, 0, 120.0F}}, 0, bytes);
