@@ -46,4 +46,23 @@ Word get_bytes(const std::byte*& in, unsigned bytes) {
   return static_cast<Word>(value << unused) >> unused;
 }
 
+/// Puts a number in sevens of bits, lowest first, by put(std::uint32_t byte): 1 to 5 bytes, all but the last with the
+/// bit 0x80.
+template <class Put>
+constexpr void put_sevens(std::uint32_t value, Put&& put) {
+  for (; value >= 0x80; value >>= 7) put((value & 0x7f) | 0x80);
+  put(value);
+}
+/// The reverse; bytes come from get(). @return false if five bytes are no number's end.
+template <class Get>
+constexpr bool get_sevens(std::uint32_t& value, Get&& get) {
+  value = 0;
+  for (int shift = 0; shift < 35; shift += 7) {
+    const std::uint32_t byte = get();
+    value |= (byte & 0x7f) << shift;
+    if (byte < 0x80) return true;
+  }
+  return false;
+}
+
 }  // namespace arris

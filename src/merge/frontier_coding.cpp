@@ -47,8 +47,7 @@ class Encoder {
     place = static_cast<std::uint8_t>(recent_.add(id));
   }
   void put_number(std::uint32_t number) {
-    for (; number >= 0x80; number >>= 7) put_byte((number & 0x7f) | 0x80);
-    put_byte(number);
+    put_sevens(number, [&](std::uint32_t byte) { put_byte(byte); });
   }
   void put_byte(std::uint32_t byte) { out_.push_back(static_cast<std::byte>(byte)); }
 
@@ -71,14 +70,9 @@ class Decoder {
     return id;
   }
   std::uint32_t number() {
-    std::uint32_t result = 0;
-    for (int shift = 0; shift < 35; shift += 7) {
-      const std::uint32_t b = byte();
-      result |= (b & 0x7f) << shift;
-      if (b < 0x80) return result;
-    }
-    sound_ = false;
-    return 0;
+    std::uint32_t result;
+    if (!get_sevens(result, [&] { return byte(); })) sound_ = false;
+    return result;
   }
   std::uint32_t byte() {
     if (next_ != end_) return static_cast<std::uint32_t>(*next_++);

@@ -37,10 +37,9 @@ std::byte* encode(const ContourRecord& r, std::uint32_t id_difference, std::byte
   put_bytes(out, std::uint8_t{r.classes}, 1);
   put_bytes(out, static_cast<std::uint8_t>(head), 1);
   put_bytes(out, id_difference, (head & kIdCode) + 1);
-  if (r.votes != 0) {  // Seldom more than some hundred.
-    for (std::uint32_t votes = r.votes; votes != 0; votes >>= 7)
-      put_bytes(out, static_cast<std::uint8_t>((votes & 0x7f) | (votes > 0x7f ? 0x80 : 0)), 1);
-  }
+  // Votes are seldom more than some hundred.
+  if (r.votes != 0)
+    put_sevens(r.votes, [&](std::uint32_t byte) { put_bytes(out, static_cast<std::uint8_t>(byte), 1); });
   for (std::size_t i = 1; i < fields.size(); ++i)
     if (fields[i] != 0) put_bytes(out, fields[i], 4);
   if (to_edge)
@@ -49,12 +48,8 @@ std::byte* encode(const ContourRecord& r, std::uint32_t id_difference, std::byte
 }
 
 std::uint32_t get_votes(const std::byte*& in) {
-  std::uint32_t votes = 0;
-  for (unsigned shift = 0; shift < 35; shift += 7) {
-    const auto byte = get_bytes<std::uint8_t>(in, 1);
-    votes |= (byte & 0x7fU) << shift;
-    if (byte < 0x80) break;
-  }
+  std::uint32_t votes;
+  get_sevens(votes, [&] { return std::uint32_t{get_bytes<std::uint8_t>(in, 1)}; });  // Any bits are votes.
   return votes;
 }
 
