@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
+
 namespace arris::pipeline {
 namespace {
 
@@ -78,6 +80,15 @@ void ColourSource::read(const io::PointBatch& batch, std::size_t source_index, s
       colours[i][c] = std::isnan(word) ? std::uint16_t{0} : static_cast<std::uint16_t>(word + 0.5);
     }
   }
+}
+
+std::unique_ptr<ColourSource> wanted_colours(io::InputSet& inputs, SupervoxelParameters::Colour wanted,
+                                             const CancelToken& cancel) {
+  if (wanted == SupervoxelParameters::Colour::kOff) return nullptr;
+  std::unique_ptr<ColourSource> colours = ColourSource::open(inputs, cancel);
+  if (wanted == SupervoxelParameters::Colour::kOn && !colours)
+    throw ConfigError("--colour on: not every input has colours that are not all black; leave it out, or --colour off");
+  return colours;
 }
 
 }  // namespace arris::pipeline

@@ -7,6 +7,7 @@
 
 #include "core/cancel.h"
 #include "core/voxel.h"
+#include "features/supervoxel/supervoxel_parameters.h"
 #include "io/attribute_reader.h"
 #include "io/point_source.h"
 
@@ -36,5 +37,10 @@ class ColourSource {
   double largest_[2] = {0.0, 0.0};  ///< Per format.
   std::vector<double> channel_;
 };
+
+/// The colours that voxels get: nullptr if they get none. Throws ConfigError if colours are demanded and an input has
+/// none.
+std::unique_ptr<ColourSource> wanted_colours(io::InputSet& inputs, SupervoxelParameters::Colour wanted,
+                                             const CancelToken& cancel);
 
 }  // namespace arris::pipeline

@@ -36,12 +36,12 @@ struct LabelledScene {
 std::unique_ptr<const LabelledScene> label_scene(io::InputSet& inputs, const JobPlan& plan,
                                                  const ExtractRequest& request, const std::filesystem::path& folder,
                                                  ProgressSink& progress, const CancelToken& cancel) {
-  auto labelled = std::make_unique<LabelledScene>(LabelledScene{
-      make_supervoxel_scene(
-          inputs, plan.survey,
-          {plan.method.supervoxel, plan.scale, request.memory_bytes, request.tile_points_cap, true, folder}, progress,
-          cancel),
-      {}});
+  auto labelled = std::make_unique<LabelledScene>(
+      LabelledScene{make_supervoxel_scene(inputs, plan.survey,
+                                          {plan.method.supervoxel, plan.scale, request.memory_bytes,
+                                           request.tile_points_cap, true, plan.colours.get(), folder},
+                                          progress, cancel),
+                    {}});
   require_room_for_moments(labelled->scene, request.memory_bytes);
   merge::SupervoxelMoments moments(labelled->scene.clusters.count, kReachCells * plan.scale.seed_steps);
   const tiling::LatticeMapper mapper(inputs.sources(), plan.survey.lattice);
@@ -88,10 +88,11 @@ ExtractReport plan_only(const ExtractRequest& request, ProgressSink& progress, c
   JobPlan plan = survey_job(inputs, request, sink, cancel);
   std::uint64_t supervoxel_bytes = 0, voxel_temp_bytes = 0;
   if (plan.method.by_supervoxels()) {
-    supervoxel_bytes =
-        predicted_supervoxel_bytes(plan.survey, plan.scale, plan.method.supervoxel, VoxelMemory(request.memory_bytes));
+    const bool colours = plan.colours != nullptr;
+    supervoxel_bytes = predicted_supervoxel_bytes(plan.survey, plan.scale, plan.method.supervoxel, colours,
+                                                  VoxelMemory(request.memory_bytes));
     voxel_temp_bytes = plan.voxel_temp_bytes;
-    plan.voxel_temp_bytes = predicted_store_bytes(plan.survey, plan.scale);
+    plan.voxel_temp_bytes = predicted_store_bytes(plan.survey, plan.scale, colours);
     plan.memory_request.kept_bytes = predicted_scene_bytes(estimate_voxels(plan.survey, plan.scale));
     plan.memory = plan_memory(plan.memory_request);
   }
@@ -127,6 +128,7 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
   std::unique_ptr<const LabelledScene> labelled;
   if (plan.method.by_supervoxels() && plan.method.any_test()) {
     labelled = label_scene(inputs, plan, request, folder.path(), sink, cancel);
+    plan.colours.reset();
     report.voxels = labelled->scene.store.size();
     report.supervoxels = labelled->scene.clusters.count;
     report.voxel_tiles = labelled->scene.clusters.tiles;

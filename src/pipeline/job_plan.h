@@ -1,15 +1,19 @@
 #pragma once
 /// @file Everything that is decided before a point is moved: survey, parameters, memory, tiles, disk.
 
+#include <memory>
+
 #include "io/point_source.h"
+#include "pipeline/colour_source.h"
 #include "pipeline/extract.h"
 #include "pipeline/tile_job.h"
 
 namespace arris::pipeline {
 
 struct JobPlan : TileJob {
-  ContourParameters method;            ///< Resolved.
-  SupervoxelScale scale;               ///< Of methods by supervoxels.
+  ContourParameters method;               ///< Resolved.
+  SupervoxelScale scale;                  ///< Of methods by supervoxels.
+  std::unique_ptr<ColourSource> colours;  ///< That voxels get; none: nullptr.
   std::uint64_t voxel_temp_bytes = 0;  ///< On disk, of the voxels: likely at first; what the store takes, once it is.
 };
 

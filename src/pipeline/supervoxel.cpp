@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -23,19 +24,22 @@ namespace {
 struct SurveyedScan {
   tiling::Survey survey;
   SupervoxelScale scale;
+  std::unique_ptr<ColourSource> colours;  ///< None: nullptr.
 };
 
 /// Pass 1, and what it tells of the work and its disk.
 SurveyedScan survey_scan(io::InputSet& inputs, const SupervoxelRequest& request, ProblemWarnings& problems,
                          SupervoxelReport& report, ProgressSink& progress, const CancelToken& cancel) {
-  SurveyedScan scan{tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel), {}};
+  SurveyedScan scan{tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel), {}, {}};
   problems.forward();
   refuse_missing_classes(request, scan.survey);
   describe_inputs(scan.survey, inputs, request, report);
   warn_of_dropped(report, progress);
   const double spacing = request.spacing > 0.0 ? request.spacing : scan.survey.spacing;
   scan.scale = resolve_scale(report.parameters, spacing, scan.survey.lattice);
-  report.predicted_temp_bytes = predicted_voxel_temp_bytes(scan.survey, scan.scale, VoxelMemory(request.memory_bytes));
+  scan.colours = wanted_colours(inputs, report.parameters.colour, cancel);
+  report.predicted_temp_bytes =
+      predicted_voxel_temp_bytes(scan.survey, scan.scale, scan.colours != nullptr, VoxelMemory(request.memory_bytes));
   check_temp_space(report.predicted_temp_bytes, request, progress);
   return scan;
 }
@@ -56,8 +60,8 @@ SupervoxelReport plan_supervoxels(const SupervoxelRequest& request, ProgressSink
   const SurveyedScan scan = survey_scan(inputs, request, problems, report, sink, cancel);
   watch.lap("survey");
   report.voxels = static_cast<std::uint64_t>(estimate_voxels(scan.survey, scan.scale).voxels);
-  report.predicted_peak_bytes =
-      predicted_supervoxel_bytes(scan.survey, scan.scale, report.parameters, VoxelMemory(request.memory_bytes));
+  report.predicted_peak_bytes = predicted_supervoxel_bytes(scan.survey, scan.scale, report.parameters,
+                                                           scan.colours != nullptr, VoxelMemory(request.memory_bytes));
   report.peak_resident_bytes = peak_resident_bytes();
   return report;
 }
@@ -85,14 +89,14 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
       open_writers(request, inputs, {{"SupervoxelId", ColumnType::kUint32, "supervoxel, 0 none"}}, true, report);
   inputs.exclude(request.exclusion);
 
-  const auto [survey, scale] = survey_scan(inputs, request, problems, report, sink, cancel);
+  const auto [survey, scale, colours] = survey_scan(inputs, request, problems, report, sink, cancel);
   watch.lap("survey");
 
   const RunFolder folder(request.temp_dir);
   const SupervoxelScene scene =
       make_supervoxel_scene(inputs, survey,
                             {report.parameters, scale, request.memory_bytes, request.tile_points_cap,
-                             !request.adjacency.empty(), folder.path()},
+                             !request.adjacency.empty(), colours.get(), folder.path()},
                             sink, cancel);
   const SupervoxelStageResult& clusters = scene.clusters;
   report.colours = scene.colours;

@@ -18,8 +18,8 @@ SupervoxelScene make_supervoxel_scene(io::InputSet& inputs, const tiling::Survey
                                       const SupervoxelSceneRequest& request, ProgressSink& progress,
                                       const CancelToken& cancel) {
   const VoxelMemory memory(request.memory_bytes);
-  VoxelStageResult voxels = run_voxel_stage(inputs, survey, request.scale, request.parameters.colour, request.folder,
-                                            memory, progress, cancel);
+  VoxelStageResult voxels =
+      run_voxel_stage(inputs, survey, request.scale, request.colours, request.folder, memory, progress, cancel);
   trim_heap();
   const SupervoxelStageRequest stage{{request.parameters, request.scale, voxels.colours, memory.stage_bytes(),
                                       request.tile_voxels_cap, request.memory_bytes, request.folder},

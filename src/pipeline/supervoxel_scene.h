@@ -8,6 +8,7 @@
 #include "core/progress.h"
 #include "features/supervoxel/supervoxel_parameters.h"
 #include "io/point_source.h"
+#include "pipeline/colour_source.h"
 #include "pipeline/supervoxel_stage.h"
 #include "pipeline/voxel_labels.h"
 #include "tiling/survey.h"
@@ -21,7 +22,8 @@ struct SupervoxelSceneRequest {
   std::uint64_t memory_bytes = 0;  ///< Budget of the whole process.
   std::uint64_t tile_voxels_cap = 0;
   bool adjacency = false;
-  std::filesystem::path folder;  ///< For temporary files.
+  ColourSource* colours = nullptr;  ///< Of the inputs; nullptr: voxels have none.
+  std::filesystem::path folder;     ///< For temporary files.
 };
 
 /// No two points of a supervoxel are further apart along an axis than this many seed cells: growth reaches 1.8 on both

@@ -19,7 +19,13 @@ namespace {
 /// Neighbours in the file are neighbours in space, but so much of the scan is met again when the table has been
 /// emptied.
 constexpr double kScannedTwice = 0.28;
-constexpr double kTableEntryBytes = sizeof(tiling::VoxelSums) + tiling::kOrderBytes;
+constexpr double kColourBytes = sizeof(tiling::ColourSums);
+double run_entry_bytes(bool colours) {
+  return sizeof(tiling::VoxelSums) + (colours ? kColourBytes : 0.0);
+}
+double table_entry_bytes(bool colours) {
+  return run_entry_bytes(colours) + tiling::kOrderBytes;
+}
 /// Neighbours of a voxel of a surface.
 constexpr double kNeighbours = 12.0;
 constexpr double kNormalBytes = 12.0;
@@ -85,8 +91,8 @@ double run_entries(const tiling::Survey& survey, const SupervoxelScale& scale, d
   return voxels + kScannedTwice * (of_both - voxels) * (1.0 - table_entries / voxels);
 }
 
-double bytes_per_voxel(const VoxelEstimate& estimate, const SupervoxelParameters& parameters) {
-  return supervoxel_bytes_per_voxel(parameters.features, false,
+double bytes_per_voxel(const VoxelEstimate& estimate, const SupervoxelParameters& parameters, bool colours) {
+  return supervoxel_bytes_per_voxel(parameters.features, colours,
                                     likely_neighbours(estimate.voxels / std::max(1.0, estimate.blocks)));
 }
 
@@ -136,14 +142,16 @@ VoxelEstimate estimate_voxels(const tiling::Survey& survey, const SupervoxelScal
 }
 
 std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
-                                         const SupervoxelParameters& parameters, const VoxelMemory& memory) {
+                                         const SupervoxelParameters& parameters, bool colours,
+                                         const VoxelMemory& memory) {
   const VoxelEstimate estimate = estimate_voxels(survey, scale);
-  const double table = std::min(kTableEntryBytes * estimate.voxels, static_cast<double>(memory.table_bytes()));
+  const double table =
+      std::min(table_entry_bytes(colours) * estimate.voxels, static_cast<double>(memory.table_bytes()));
   const double counting = static_cast<double>(resident_bytes()) + table + estimate.index_bytes;
   release_free_memory();
   const double before = static_cast<double>(resident_bytes()) + estimate.index_bytes;
   const auto room = static_cast<double>(memory.stage_bytes(static_cast<std::uint64_t>(before)));
-  const double each = bytes_per_voxel(estimate, parameters);
+  const double each = bytes_per_voxel(estimate, parameters, colours);
   double kept = (sizeof(std::uint32_t) + 0.125) * estimate.voxels + cluster_bytes(parameters) * estimate.clusters;
   tiling::VoxelPlanRequest plan;
   plan.max_voxels = most_tile_voxels(room - kept, each);
@@ -158,7 +166,7 @@ std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const Sup
     const double clusters = likely_clusters(voxels * (1.0 - all.blocks / std::max(1.0, all.voxels)), level);
     const double lone = voxels * all.lone() / std::max(1.0, all.voxels);
     const double here =
-        cluster_bytes(parameters) * clusters + bytes_per_voxel(all, parameters) * voxels + kLoneBytes * lone;
+        cluster_bytes(parameters) * clusters + bytes_per_voxel(all, parameters, colours) * voxels + kLoneBytes * lone;
     peak = std::max(peak, std::min(room, kept + here));
   }
   const double growing = before + std::max(static_cast<double>(kVoxelPassBytes), peak);
@@ -170,22 +178,22 @@ std::uint64_t predicted_scene_bytes(const VoxelEstimate& estimate) {
                                     kSupervoxelBytes * (estimate.clusters + estimate.lone()));
 }
 
-std::uint64_t predicted_store_bytes(const tiling::Survey& survey, const SupervoxelScale& scale) {
-  const auto each = static_cast<double>(tiling::VoxelLayout(VoxelGrid(scale.voxel_steps), false).bytes());
+std::uint64_t predicted_store_bytes(const tiling::Survey& survey, const SupervoxelScale& scale, bool colours) {
+  const auto each = static_cast<double>(tiling::VoxelLayout(VoxelGrid(scale.voxel_steps), colours).bytes());
   return static_cast<std::uint64_t>(each * likely_voxels(survey, scale));
 }
 
-std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale, bool colours,
                                          const VoxelMemory& memory) {
   const double voxels = likely_voxels(survey, scale);
   const auto room = static_cast<double>(memory.table_bytes() + memory.index_bytes());
-  const double table_entries = static_cast<double>(memory.table_bytes()) / kTableEntryBytes;
+  const double table_entries = static_cast<double>(memory.table_bytes()) / table_entry_bytes(colours);
   const double runs = voxels > table_entries ? run_entries(survey, scale, voxels, table_entries) : 0.0;
   const bool tiles =
-      voxels * supervoxel_bytes_per_voxel(SupervoxelParameters::Features::kNormal, false, kNeighbours) > room;
+      voxels * supervoxel_bytes_per_voxel(SupervoxelParameters::Features::kNormal, colours, kNeighbours) > room;
   // Runs are gone when normals of tiles come.
-  const double beside = std::max(runs * sizeof(tiling::VoxelSums), tiles ? kNormalBytes * voxels : 0.0);
-  return predicted_store_bytes(survey, scale) + static_cast<std::uint64_t>(beside);
+  const double beside = std::max(runs * run_entry_bytes(colours), tiles ? kNormalBytes * voxels : 0.0);
+  return predicted_store_bytes(survey, scale, colours) + static_cast<std::uint64_t>(beside);
 }
 
 }  // namespace arris::pipeline

@@ -25,20 +25,21 @@ VoxelEstimate estimate_voxels(const tiling::Survey& survey, const SupervoxelScal
 /// Their voxels alone.
 double likely_voxels(const tiling::Survey& survey, const SupervoxelScale& scale);
 
-/// Peak of a run that writes labels only, without colours: tiles are cut as they would be if the voxels of a cell lay
+/// Peak of a run that writes labels only: tiles are cut as they would be if the voxels of a cell lay
 /// in its middle. To be asked when the survey is made: what is resident then, and was before, counts; free memory is
 /// given back, as it is before supervoxels grow.
 std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
-                                         const SupervoxelParameters& parameters, const VoxelMemory& memory);
+                                         const SupervoxelParameters& parameters, bool colours,
+                                         const VoxelMemory& memory);
 
 /// What a SupervoxelScene and the table of its supervoxels keep in memory.
 std::uint64_t predicted_scene_bytes(const VoxelEstimate& estimate);
 
-/// The store of the voxels, without colours.
-std::uint64_t predicted_store_bytes(const tiling::Survey& survey, const SupervoxelScale& scale);
-/// Runs, store and normals of the voxels, without colours, for inputs whose neighbours in space are neighbours in the
+/// The store of the voxels.
+std::uint64_t predicted_store_bytes(const tiling::Survey& survey, const SupervoxelScale& scale, bool colours);
+/// Runs, store and normals of the voxels, for inputs whose neighbours in space are neighbours in the
 /// file.
-std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale, bool colours,
                                          const VoxelMemory& memory);
 
 }  // namespace arris::pipeline

@@ -4,7 +4,6 @@
 
 #include "core/error.h"
 #include "core/read_ahead.h"
-#include "pipeline/colour_source.h"
 #include "pipeline/voxel_estimate.h"
 #include "tiling/lattice_mapper.h"
 #include "tiling/voxel_accumulator.h"
@@ -21,13 +20,8 @@ struct MappedBatch {
 }  // namespace
 
 VoxelStageResult run_voxel_stage(io::InputSet& inputs, const tiling::Survey& survey, const SupervoxelScale& scale,
-                                 SupervoxelParameters::Colour colour, const std::filesystem::path& folder,
-                                 const VoxelMemory& memory, ProgressSink& progress, const CancelToken& cancel) {
-  std::unique_ptr<ColourSource> colours;
-  if (colour != SupervoxelParameters::Colour::kOff) colours = ColourSource::open(inputs, cancel);
-  if (colour == SupervoxelParameters::Colour::kOn && !colours)
-    throw ConfigError("--colour on: not every input has colours that are not all black; leave it out, or --colour off");
-
+                                 ColourSource* colours, const std::filesystem::path& folder, const VoxelMemory& memory,
+                                 ProgressSink& progress, const CancelToken& cancel) {
   progress.phase("voxels", inputs.points());
   const tiling::LatticeMapper mapper(inputs.sources(), survey.lattice);
   tiling::VoxelAccumulator accumulator(

@@ -7,6 +7,7 @@
 #include "core/progress.h"
 #include "features/supervoxel/supervoxel_parameters.h"
 #include "io/point_source.h"
+#include "pipeline/colour_source.h"
 #include "pipeline/voxel_memory.h"
 #include "tiling/survey.h"
 #include "tiling/voxel_store.h"
@@ -19,10 +20,10 @@ struct VoxelStageResult {
   std::uint64_t peak_temp_bytes = 0;
 };
 
-/// Streams the inputs once (a little more with colours); points are summed while the next ones are read. Throws
-/// ConfigError if colours are demanded and an input has none; what reading throws.
+/// Streams the inputs once; points are summed while the next ones are read. Throws what reading throws.
+/// @param colours  of the inputs, or nullptr: none.
 VoxelStageResult run_voxel_stage(io::InputSet& inputs, const tiling::Survey& survey, const SupervoxelScale& scale,
-                                 SupervoxelParameters::Colour colour, const std::filesystem::path& folder,
-                                 const VoxelMemory& memory, ProgressSink& progress, const CancelToken& cancel);
+                                 ColourSource* colours, const std::filesystem::path& folder, const VoxelMemory& memory,
+                                 ProgressSink& progress, const CancelToken& cancel);
 
 }  // namespace arris::pipeline

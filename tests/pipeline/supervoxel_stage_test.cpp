@@ -39,8 +39,9 @@ class SupervoxelStage : public ::testing::Test {
     const tiling::Survey survey = tiling::survey_inputs(inputs, {}, sink_, cancel_);
     scale_ = resolve_scale(parameters_, survey.spacing, survey.lattice);
     voxels_.reset();
-    voxels_.emplace(run_voxel_stage(inputs, survey, scale_, colour, folder_.path(), VoxelMemory(std::uint64_t{1} << 30),
-                                    sink_, cancel_));
+    const std::unique_ptr<ColourSource> colours = wanted_colours(inputs, colour, cancel_);
+    voxels_.emplace(run_voxel_stage(inputs, survey, scale_, colours.get(), folder_.path(),
+                                    VoxelMemory(std::uint64_t{1} << 30), sink_, cancel_));
   }
 
   SupervoxelStageResult cluster(Features features, std::uint64_t cap = 0, std::uint64_t memory = kMuch) {

@@ -60,8 +60,8 @@ TEST(VoxelEstimate, VoxelsOfOnePoint_AreInOneRunOnly) {
   const SupervoxelScale scale = scale_of(2);
   const double voxels = estimate_voxels(survey, scale).voxels;
   const VoxelMemory memory((resident_bytes() + kGiB / 25) * 100 / 92);
-  const auto store = static_cast<double>(predicted_store_bytes(survey, scale));
-  const double runs = static_cast<double>(predicted_voxel_temp_bytes(survey, scale, memory)) - store;
+  const auto store = static_cast<double>(predicted_store_bytes(survey, scale, false));
+  const double runs = static_cast<double>(predicted_voxel_temp_bytes(survey, scale, false, memory)) - store;
   EXPECT_NEAR(runs / (28.0 * voxels), 1.0, 0.05);
 }
 
@@ -69,11 +69,29 @@ TEST(VoxelEstimate, SmallerBudget_ForetellsNoMoreThanTheBudget) {
   const tiling::Survey survey = survey_of(plane());
   const SupervoxelScale scale = scale_of(20);
   const double voxels = estimate_voxels(survey, scale).voxels;
-  const std::uint64_t much = predicted_supervoxel_bytes(survey, scale, {}, VoxelMemory(4 * kGiB));
+  const std::uint64_t much = predicted_supervoxel_bytes(survey, scale, {}, false, VoxelMemory(4 * kGiB));
   const std::uint64_t budget = resident_bytes() + kGiB / 4;  // Sanitizers take much themselves.
-  const std::uint64_t little = predicted_supervoxel_bytes(survey, scale, {}, VoxelMemory(budget));
+  const std::uint64_t little = predicted_supervoxel_bytes(survey, scale, {}, false, VoxelMemory(budget));
   EXPECT_GT(static_cast<double>(much), 95.0 * voxels) << "all are in one tile";
   EXPECT_LE(little, std::max(budget, peak_resident_bytes())) << "what other tests took counts";
+}
+
+TEST(VoxelEstimate, Colours_TakeMoreMemoryAndDisk) {
+  const tiling::Survey survey = survey_of(plane());
+  const SupervoxelScale scale = scale_of(20);
+  const double voxels = estimate_voxels(survey, scale).voxels;
+  const auto more = [](std::uint64_t with, std::uint64_t without) { return static_cast<double>(with - without); };
+  EXPECT_NEAR(more(predicted_store_bytes(survey, scale, true), predicted_store_bytes(survey, scale, false)),
+              6.0 * voxels, 2.0);
+  const VoxelMemory much(4 * kGiB);
+  EXPECT_GT(more(predicted_supervoxel_bytes(survey, scale, {}, true, much),
+                 predicted_supervoxel_bytes(survey, scale, {}, false, much)),
+            11.0 * voxels);
+  const VoxelMemory little((resident_bytes() + kGiB / 25) * 100 / 92);
+  EXPECT_GT(more(predicted_voxel_temp_bytes(survey, scale, true, little),
+                 predicted_voxel_temp_bytes(survey, scale, false, little)),
+            (6.0 + 11.0) * voxels)
+      << "store and runs";
 }
 
 }  // namespace
