@@ -31,7 +31,7 @@ constexpr std::size_t kLeastDense = 8;
 constexpr std::size_t kMostCells = std::size_t{1} << 16;
 using PointsByDensity = std::array<double, kDensities>;
 /// Rather too much than too little: cells differ.
-constexpr double kMargin = 1.05;
+constexpr double kMargin = 1.09;
 
 std::size_t density_of(std::uint64_t points) {
   return points == 0 ? 0 : static_cast<std::size_t>(std::bit_width(points) - 1) / 2;
@@ -157,7 +157,7 @@ double most_frontier_bytes_per_point(const SegmentParameters& parameters) {
 
 double frontier_sample(std::uint64_t points) {
   const auto all = static_cast<double>(points);
-  return std::clamp(std::max(0.015 * all, std::min(0.06 * all, 50'000.0)), 20'000.0, 300'000.0);
+  return std::clamp(std::max(0.015 * all, std::min(0.06 * all, 50'000.0)), 40'000.0, 300'000.0);
 }
 
 double frontier_bytes_per_point(const FrontierSamples& samples, std::span<const std::uint8_t> intensities,

@@ -29,7 +29,7 @@ struct Likely {
   double of_scratch, of_thread, buffers_bytes;
 };
 Likely likely_of(const TileJob& job) {
-  return job.tiles.tiles.size() > 1 ? Likely{1.0, 1.0, 0.0} : Likely{0.2, 0.5, 11.5e6};
+  return job.tiles.tiles.size() > 1 ? Likely{1.0, 1.0, 0.0} : Likely{0.2, 0.5, 15.5e6};
 }
 
 /// On disk, where a tile file goes at once when its tile is analysed: files and results of the tiles in flight; of
