@@ -16,7 +16,7 @@ case $what in
     ;;
   tsan)
     ARRIS_TARGETS=labelled_pipeline scripts/build.sh tsan -DARRIS_TESTS=ON
-    ctest --preset tsan -L pipeline -j1
+    ctest --preset tsan -L pipeline -j"$(nproc)"
     ;;
   *) echo "test.sh: unknown suite '$what' (quick, long, asan, tsan)" >&2; exit 2 ;;
 esac

@@ -73,6 +73,7 @@ TEST(EvaluateLocalSpacing, InputAsPrediction_CoversTheTruthOfItsScan) {
 }
 
 TEST(SynthLabels, AreAColumnMore_AndTheRestStaysTheSame) {
+  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
   const TempFolder folder;
   for (const std::string scene : {"block", "town"}) {
     const std::string plain = folder / "plain.ply", labelled = folder / "labelled.ply";

@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "scene_testing.h"
+#include "support/sanitizers.h"
 #include "synth/polylines.h"
 #include "synth/scan_visibility.h"
 
@@ -209,6 +210,7 @@ TEST(ScanVisibility_Spacing, OnTheGround_IsThatOfTheSphericalGrid) {
 }
 
 TEST(ScanTruth_Town, TruthOfScan_HasPointsBesideEveryPieceAndNoneOfTheModelsHiddenEdges) {
+  ARRIS_SKIP_UNDER_SANITIZERS;
   const Scene scene(request_of("town", 300000));
   const evaluate::Truth truth = scene.truth(), model = scene.truth(TruthOf::kModel);
   EXPECT_EQ(truth.properties.at("truth_of"), "scan");
