@@ -1,7 +1,9 @@
 #include "tiling/voxel_tiles.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.h"
@@ -26,6 +28,26 @@ LatticeBox in_blocks(LatticeBox box) {
     box.max[axis] = (box.max[axis] + VoxelIndex::kBlockSide - 1) >> kBlockLevel << kBlockLevel;
   }
   return box;
+}
+
+/// All voxels in one tile, if they fit: nothing has to be counted then.
+std::optional<TilePlan> plan_one_tile(const VoxelBlocks& blocks, const VoxelPlanRequest& request) {
+  LatticeBox occupied;
+  std::uint64_t voxels = 0;
+  blocks([&](const LatticePoint& block, std::uint64_t count) {
+    occupied.include(block);
+    voxels += count;
+  });
+  const std::uint64_t most_core = request.max_core_voxels == 0 ? voxels : request.max_core_voxels;
+  if (voxels == 0 || voxels > request.max_voxels || voxels > most_core) return std::nullopt;
+  PlannedTile tile;
+  for (int axis = 0; axis < 3; ++axis) {
+    tile.core.min[axis] = occupied.min[axis] * VoxelIndex::kBlockSide;
+    tile.core.max[axis] = occupied.max[axis] * VoxelIndex::kBlockSide;
+  }
+  tile.covered = in_blocks(tile.core.expanded(std::max(1, request.halo_voxels)));
+  tile.core_points = tile.covered_points = voxels;
+  return TilePlan{{tile}, voxels, 1.0};
 }
 
 /// Voxels that are read together, and their place in the tile.
@@ -100,6 +122,7 @@ TilePlan plan_voxel_tiles(const VoxelIndex& index, const VoxelPlanRequest& reque
 }
 
 TilePlan plan_voxel_tiles(const VoxelBlocks& blocks, const VoxelPlanRequest& request) {
+  if (std::optional<TilePlan> one = plan_one_tile(blocks, request)) return *std::move(one);
   Survey voxels;  // Voxels take the place of points, one to a step.
   voxels.lattice = {1.0, {0.0, 0.0, 0.0}};
   voxels.spacing = 1.0;
