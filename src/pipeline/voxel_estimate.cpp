@@ -180,7 +180,8 @@ std::uint64_t predicted_scene_bytes(const VoxelEstimate& estimate) {
 
 std::uint64_t predicted_store_bytes(const tiling::Survey& survey, const SupervoxelScale& scale, bool colours) {
   const auto each = static_cast<double>(tiling::VoxelLayout(VoxelGrid(scale.voxel_steps), colours).bytes());
-  return static_cast<std::uint64_t>(each * likely_voxels(survey, scale));
+  constexpr double kMargin = 1.05;  // Rather too much than too little: noise fills more than surfaces do.
+  return static_cast<std::uint64_t>(kMargin * each * likely_voxels(survey, scale));
 }
 
 std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale, bool colours,
