@@ -62,7 +62,7 @@ TEST_P(ExactTilingSegmentMatrix, AirborneTown_SameBytes) {
 
 TEST_P(ExactTilingSegmentMatrix, Houses_SameBytes) {
   ARRIS_SHARED_DATA_OR_SKIP(scan, "IGNF+lidar-prod/tests/files/870000_6618000.subset.postValidation.las");
-  expect_same_bytes(scan, small_matrix(), GetParam().run(10, {"--only-class", "1", "6"}));
+  expect_same_bytes(scan, small_matrix(), GetParam().run(10, {"--only-class", "1,6"}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Runs, ExactTilingSegmentMatrix,
