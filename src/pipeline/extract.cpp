@@ -1,5 +1,6 @@
 #include "pipeline/extract.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "core/error.h"
@@ -89,8 +90,9 @@ ExtractReport plan_only(const ExtractRequest& request, ProgressSink& progress, c
   std::uint64_t supervoxel_bytes = 0, voxel_temp_bytes = 0;
   if (plan.method.by_supervoxels()) {
     const bool colours = plan.colours != nullptr;
-    supervoxel_bytes = predicted_supervoxel_bytes(plan.survey, plan.scale, plan.method.supervoxel, colours,
-                                                  VoxelMemory(request.memory_bytes));
+    supervoxel_bytes = std::max(peak_resident_bytes(),
+                                predicted_supervoxel_bytes(plan.survey, plan.scale, plan.method.supervoxel, colours,
+                                                           VoxelMemory(request.memory_bytes)));
     voxel_temp_bytes = plan.voxel_temp_bytes;
     plan.voxel_temp_bytes = predicted_store_bytes(plan.survey, plan.scale, colours);
     plan.memory_request.kept_bytes = predicted_scene_bytes(estimate_voxels(plan.survey, plan.scale));

@@ -60,8 +60,10 @@ SupervoxelReport plan_supervoxels(const SupervoxelRequest& request, ProgressSink
   const SurveyedScan scan = survey_scan(inputs, request, problems, report, sink, cancel);
   watch.lap("survey");
   report.voxels = static_cast<std::uint64_t>(estimate_voxels(scan.survey, scan.scale).voxels);
-  report.predicted_peak_bytes = predicted_supervoxel_bytes(scan.survey, scan.scale, report.parameters,
-                                                           scan.colours != nullptr, VoxelMemory(request.memory_bytes));
+  report.predicted_peak_bytes =
+      std::max(peak_resident_bytes(),
+               predicted_supervoxel_bytes(scan.survey, scan.scale, report.parameters, scan.colours != nullptr,
+                                          VoxelMemory(request.memory_bytes)));
   report.peak_resident_bytes = peak_resident_bytes();
   return report;
 }

@@ -170,7 +170,7 @@ std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const Sup
     peak = std::max(peak, std::min(room, kept + here));
   }
   const double growing = before + std::max(static_cast<double>(kVoxelPassBytes), peak);
-  return std::max(peak_resident_bytes(), static_cast<std::uint64_t>(std::max(counting, growing)));
+  return static_cast<std::uint64_t>(std::max(counting, growing));
 }
 
 std::uint64_t predicted_scene_bytes(const VoxelEstimate& estimate) {

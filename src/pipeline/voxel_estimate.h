@@ -26,8 +26,8 @@ VoxelEstimate estimate_voxels(const tiling::Survey& survey, const SupervoxelScal
 double likely_voxels(const tiling::Survey& survey, const SupervoxelScale& scale);
 
 /// Peak of a run that writes labels only: tiles are cut as they would be if the voxels of a cell lay
-/// in its middle. To be asked when the survey is made: what is resident then, and was before, counts; free memory is
-/// given back, as it is before supervoxels grow.
+/// in its middle. To be asked when the survey is made: what is resident then counts, what was before does not; free
+/// memory is given back, as it is before supervoxels grow.
 std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
                                          const SupervoxelParameters& parameters, bool colours,
                                          const VoxelMemory& memory);
