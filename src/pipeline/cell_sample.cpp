@@ -58,11 +58,6 @@ CellSample::CellSample(const tiling::Survey& survey, double side_spacings, doubl
       limit_(static_cast<std::uint64_t>(
           std::min(1.0, points / std::max<double>(1.0, static_cast<double>(survey.points()))) * 4294967295.0)) {}
 
-LatticePoint CellSample::place_of(const LatticePoint& p) const {
-  const auto place = [this](std::int32_t c) { return static_cast<std::int32_t>((c + offset()) >> shift_); };
-  return {place(p.x), place(p.y), place(p.z)};
-}
-
 LatticeBox CellSample::box_of(const LatticePoint& place) const {
   LatticeBox box;
   for (int axis = 0; axis < 3; ++axis) {

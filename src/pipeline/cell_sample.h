@@ -31,7 +31,10 @@ class CellSample {
   /// Of the cells: their sides are 2^level steps.
   int level() const { return shift_; }
   bool draws(const LatticePoint& place) const;
-  LatticePoint place_of(const LatticePoint& p) const;
+  LatticePoint place_of(const LatticePoint& p) const {
+    const auto place = [this](std::int32_t c) { return static_cast<std::int32_t>((c + offset()) >> shift_); };
+    return {place(p.x), place(p.y), place(p.z)};
+  }
   /// A point of a place that is drawn; in ascending order of ids.
   void add(const LatticePoint& place, const LatticePoint& p, std::uint64_t id);
   struct View {

@@ -157,7 +157,7 @@ double most_frontier_bytes_per_point(const SegmentParameters& parameters) {
 
 double frontier_sample(std::uint64_t points) {
   const auto all = static_cast<double>(points);
-  return std::clamp(std::max(0.015 * all, std::min(0.06 * all, 50'000.0)), 40'000.0, 300'000.0);
+  return std::clamp(std::max(0.01 * all, std::min(0.06 * all, 50'000.0)), 40'000.0, 300'000.0);
 }
 
 double frontier_bytes_per_point(const FrontierSamples& samples, std::span<const std::uint8_t> intensities,

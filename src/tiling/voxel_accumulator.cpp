@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
-#include "core/parallel.h"
-#include "core/text.h"
 #include "tiling/voxel_merge.h"
 #include "tiling/voxel_run.h"
+#include "tiling/voxel_store_filler.h"
 #include "tiling/voxel_store_parts.h"
 #include "tiling/voxel_sums.h"
 #include "tiling/voxel_table.h"
@@ -22,79 +19,12 @@ namespace {
 
 // Large writes are cheaper, up to here.
 constexpr std::size_t kMostWriteBytes = 512 * 1024;
-constexpr std::size_t kFilledTogether = 4096;
 // A batch of points, counters of the sort, voxels on their way to the store, and the rest.
-constexpr std::size_t kFixedBytes = 96 * 1024 + 2 * kFilledTogether * sizeof(Voxel);
+constexpr std::size_t kFixedBytes = 96 * 1024 + VoxelStoreFiller::kVoxelsOnTheirWay * sizeof(Voxel);
 // Runs merged at a time: few enough for the system's limit of open files.
 constexpr std::size_t kMostRuns = 128;
-constexpr std::uint64_t kDirectoryBytes = 8;  // Of the index, per block.
 constexpr std::size_t kLeastReadBytes = 64 * 1024;
 constexpr std::size_t kMostReadBytes = 1024 * 1024;
-
-/// Records in, voxels out. Voxels are put into file and index on another thread while the next ones are summed, unless
-/// loops may use one thread only.
-class StoreFiller {
- public:
-  StoreFiller(VoxelFile& file, VoxelIndex& index, std::uint64_t most_index_bytes)
-      : file_(file), index_(index), most_index_bytes_(most_index_bytes) {
-    summed_.reserve(kFilledTogether);
-    taken_.reserve(kFilledTogether);
-    if (loop_threads() > 1) filling_.emplace(1);
-  }
-  void add(const VoxelRecord& record) {
-    if (!total_ || !(total_->key() == record.sums.key)) {
-      complete();
-      total_.emplace(record.sums.key);
-    }
-    total_->add(record);
-  }
-  /// Call it once all records are there.
-  void finish() {
-    complete();
-    fill();
-    if (filling_) filling_->wait();
-  }
-
- private:
-  void complete() {
-    if (!total_) return;
-    summed_.push_back(total_->mean());
-    if (summed_.size() == kFilledTogether) fill();
-    total_.reset();
-  }
-
-  void fill() {
-    if (filling_) filling_->wait();
-    taken_.clear();
-    std::swap(summed_, taken_);
-    if (filling_) {
-      filling_->run([this] { append_taken(); });
-    } else {
-      append_taken();
-    }
-  }
-
-  void append_taken() {
-    for (const Voxel& voxel : taken_) file_.append(voxel);
-    for (const Voxel& voxel : taken_) {
-      if (index_.size() == VoxelIndex::kNone - 1)
-        throw BudgetError(fmt::format("more than {} voxels; choose a larger --voxel", index_.size()));
-      index_.append(voxel.key);
-    }
-    // The directory comes on top when all blocks are known.
-    if (index_.memory_bytes() + index_.blocks() * kDirectoryBytes <= most_index_bytes_) return;
-    throw BudgetError(fmt::format(
-        "the index of more than {} voxels does not fit into what --memory leaves; raise it, or choose a larger --voxel",
-        grouped(index_.size())));
-  }
-
-  VoxelFile& file_;
-  VoxelIndex& index_;
-  std::uint64_t most_index_bytes_;
-  std::optional<VoxelTotal> total_;
-  std::vector<Voxel> summed_, taken_;
-  std::optional<BackgroundTasks> filling_;  // Of what is taken. Joined before that goes.
-};
 
 /// Adds to `sums` if the sums still fit.
 bool combine(VoxelRecord& sums, const VoxelRecord& more, std::uint32_t most_points) {
@@ -133,7 +63,11 @@ struct VoxelAccumulator::Impl {
 
   void spill() {
     auto run = new_run(table->has_colours());
-    table->drain([&](const VoxelRecord& record) { run->append(record); });
+    {
+      const VoxelTable::Sorted sums = table->sorted();
+      for (std::size_t i = 0; i < sums.size(); ++i) run->append(sums[i]);
+    }
+    table->clear();
     keep(std::move(run));
   }
 
@@ -162,7 +96,7 @@ struct VoxelAccumulator::Impl {
     drop(count);
   }
 
-  void merge_into(StoreFiller& filler) {
+  void merge_into(VoxelStoreFiller& filler) {
     const std::size_t fan_in = std::clamp<std::size_t>(free_bytes / kLeastReadBytes, 2, kMostRuns);
     while (runs.size() > fan_in) merge_first(std::min(fan_in, runs.size() - fan_in + 1));
     VoxelMerge merge(runs, read_bytes(runs.size()));
@@ -193,13 +127,7 @@ void VoxelAccumulator::add(std::span<const LatticePoint> positions, std::span<co
   for (const RawColour& colour : colours) {
     impl.largest_colour = std::max({impl.largest_colour, colour[0], colour[1], colour[2]});
   }
-  for (;;) {
-    const std::size_t added = impl.table->add(positions, colours);
-    if (added == positions.size()) return;
-    impl.spill();
-    positions = positions.subspan(added);
-    if (!colours.empty()) colours = colours.subspan(added);
-  }
+  while (!impl.table->add(positions, colours)) impl.spill();
 }
 
 VoxelStore VoxelAccumulator::finish() {
@@ -207,9 +135,9 @@ VoxelStore VoxelAccumulator::finish() {
   const bool colours =
       impl.table->has_colours() || std::ranges::any_of(impl.runs, [](const auto& run) { return run->has_colours(); });
   auto store = std::make_unique<VoxelStore::Impl>(impl.grid, impl.folder / "voxels.store", impl.write_bytes, colours);
-  StoreFiller filler(store->file, store->index, impl.most_index_bytes);
+  VoxelStoreFiller filler(store->file, store->index, impl.most_index_bytes);
   if (impl.runs.empty()) {
-    impl.table->drain([&](const VoxelRecord& record) { filler.add(record); });
+    filler.add_sorted(impl.table->sorted());
     impl.table.reset();
   } else {
     if (!impl.table->empty()) impl.spill();

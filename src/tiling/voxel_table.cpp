@@ -1,178 +1,96 @@
 #include "tiling/voxel_table.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
+#include <cstring>
 
-#include "core/avx2.h"
-#include "tiling/voxel_hash.h"
+#include "core/parallel.h"
 
 namespace arris::tiling {
 namespace {
 
-constexpr std::size_t kBatch = 128;
-constexpr std::size_t kFirstSlots = std::size_t{1} << 16;
-constexpr std::size_t kGrowth = 8;
-// Where it is known how many sums are likely there are never many more.
-constexpr std::size_t kLikelyGrowth = 2;
-constexpr std::size_t kSpareShare = 8;
-constexpr std::uint32_t kFull = 0xffffffffU;
+/// No index of a sum is as large.
+constexpr std::size_t kMostSums = 0xfffffffeU;
+/// Points that are worth waking a thread for.
+constexpr std::size_t kLeastPoints = 2048;
 
-// No more memory than sorting takes afterwards.
-constexpr std::size_t kSlotsPerSum = 3;
+std::uint32_t lane_count() {
+  const auto threads = static_cast<std::uint32_t>(std::max(1, loop_threads()));
+  return std::min(std::bit_floor(threads), VoxelLane::kMostLanes);
+}
+
+/// Sorting takes more than the slots, which are freed before.
+std::size_t sum_bytes(bool colours) {
+  return sizeof(VoxelSums) + kOrderBytes + (colours ? sizeof(ColourSums) : 0);
+}
 
 }  // namespace
 
-/// Voxels of the points of a batch, by arrays.
-struct VoxelTable::Batch {
-  std::array<std::int32_t, kBatch> x{}, y{}, z{};
-  std::array<std::uint32_t, kBatch> offset_x{}, offset_y{}, offset_z{}, hash{};
-
-  LatticePoint key(std::size_t i) const { return {x[i], y[i], z[i]}; }
-
-  void fill(const VoxelGrid& grid, std::span<const LatticePoint> positions) {
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      offset_x[i] = static_cast<std::uint32_t>(positions[i].x);
-      offset_y[i] = static_cast<std::uint32_t>(positions[i].y);
-      offset_z[i] = static_cast<std::uint32_t>(positions[i].z);
-    }
-#if ARRIS_AVX2_VERSIONS
-    if (may_use_avx2()) return divide_avx2(grid);
-#endif
-    divide(grid);
-  }
-
- private:
-  /// Whole arrays, axis by axis: these loops vectorise. Integers and one product each: the same bits everywhere.
-  __attribute__((always_inline)) void divide(const VoxelGrid& grid) {
-    divide(grid, offset_x, x);
-    divide(grid, offset_y, y);
-    divide(grid, offset_z, z);
-    for (std::size_t i = 0; i < kBatch; ++i) hash[i] = voxel_hash(x[i], y[i], z[i]);
-  }
-  /// Positions become offsets in voxels.
-  __attribute__((always_inline)) static void divide(const VoxelGrid& grid, std::array<std::uint32_t, kBatch>& offset,
-                                                    std::array<std::int32_t, kBatch>& voxel) {
-    for (std::size_t i = 0; i < kBatch; ++i) {
-      voxel[i] = grid.voxel_of(static_cast<std::int32_t>(offset[i]));
-      offset[i] -= grid.low_corner(voxel[i]);
-    }
-  }
-#if ARRIS_AVX2_VERSIONS
-  __attribute__((target("avx2"))) void divide_avx2(const VoxelGrid& grid) {
-    divide(grid);
-  }
-#endif
-};
-
 VoxelTable::VoxelTable(const VoxelGrid& grid, std::size_t size_bytes, std::size_t likely_sums)
     : grid_(grid), size_bytes_(size_bytes) {
-  set_capacity();
-  sums_ = PageArray<VoxelSums>(capacity_);
-  const std::size_t likely_slots = kSlotsPerSum * (likely_sums + likely_sums / kSpareShare);
-  first_slots_ = std::min(std::max(kFirstSlots, likely_slots), kSlotsPerSum * (capacity_ + 1));
-  growth_ = likely_sums > 0 ? kLikelyGrowth : kGrowth;
+  const std::uint32_t lanes = lane_count();
+  lane_sums_ = std::clamp<std::size_t>(size_bytes_ / sum_bytes(false), lanes, kMostSums) / lanes;
+  sums_ = PageArray<VoxelSums>(lane_sums_ * lanes);
+  for (std::uint32_t i = 0; i < lanes; ++i)
+    lanes_.emplace_back(grid, i, lanes, &sums_[lane_sums_ * i], likely_sums / lanes);
+  looked_at_.assign(lanes, 0);
+  set_limits();
 }
 
-void VoxelTable::set_capacity() {
-  // Sorting takes more than the slots, which are freed before.
-  const std::size_t bytes = sizeof(VoxelSums) + kOrderBytes + (has_colours_ ? sizeof(ColourSums) : 0);
-  capacity_ = std::clamp<std::size_t>(size_bytes_ / bytes, 1, kFull - 1);
-  most_points_ = most_points_summed(grid_.side_steps(), has_colours_);
+void VoxelTable::set_limits() {
+  const std::size_t sums = std::clamp<std::size_t>(size_bytes_ / sum_bytes(has_colours_), lanes_.size(), kMostSums);
+  for (VoxelLane& lane : lanes_)
+    lane.set_limits(sums / lanes_.size(), most_points_summed(grid_.side_steps(), has_colours_));
 }
 
 void VoxelTable::start_colours() {
   has_colours_ = true;
-  set_capacity();
-  colours_ = PageArray<ColourSums>(std::max(capacity_, size_));
-  std::ranges::fill(colours_.first(size_), ColourSums{});
+  set_limits();
+  colours_ = PageArray<ColourSums>(lane_sums_ * lanes_.size());
+  for (std::size_t i = 0; i < lanes_.size(); ++i) lanes_[i].start_colours(&colours_[lane_sums_ * i]);
 }
 
-void VoxelTable::rehash(std::size_t slots) {
-  free_slots();
-  slots_ = HashSlots(slots, std::max(capacity_, size_));
-  slots_full_at_ = slots / kSlotsPerSum;
-  // Of sums of one voxel the last is the one that is not full.
-  constexpr std::size_t kAhead = 16;
-  for (std::size_t i = size_; i > 0; --i) {
-    if (i > kAhead) slots_.prefetch(voxel_hash(sums_[i - 1 - kAhead].key));
-    const std::uint32_t hash = voxel_hash(sums_[i - 1].key);
-    const std::size_t slot = find(sums_[i - 1].key, hash);
-    if (slots_.at(slot) == HashSlots::kNone) slots_.set(slot, hash, static_cast<std::uint32_t>(i - 1));
-  }
-}
-
-void VoxelTable::free_slots() {
-  slots_ = {};
-  slots_full_at_ = 0;
-}
-
-inline std::size_t VoxelTable::find(const LatticePoint& key, std::uint32_t hash) const {
-  return slots_.find(hash, [&](std::uint32_t index) { return sums_[index].key == key; });
-}
-
-inline std::uint32_t VoxelTable::begin_sum(const LatticePoint& key) {
-  sums_[size_] = {key, 0, {}};
-  if (has_colours_) colours_[size_] = {};
-  return static_cast<std::uint32_t>(size_++);
-}
-
-/// Index of the sum to add to, kFull if there is none and no room.
-inline std::uint32_t VoxelTable::find_or_begin(const LatticePoint& key, std::uint32_t hash) {
-  std::size_t slot = find(key, hash);
-  if (const std::uint32_t index = slots_.at(slot); index != HashSlots::kNone && sums_[index].points < most_points_) {
-    return index;
-  }
-  if (size_ >= capacity_) return kFull;
-  if (size_ >= slots_full_at_) {
-    first_slots_ = std::min(growth_ * slots_.size(), kSlotsPerSum * (capacity_ + 1));
-    rehash(first_slots_);
-    slot = find(key, hash);
-  }
-  const std::uint32_t index = begin_sum(key);
-  slots_.set(slot, hash, index);
-  return index;
-}
-
-template <bool kColours>
-std::size_t VoxelTable::add_batch(const Batch& batch, std::size_t count, const RawColour* colours) {
-  if (slots_.size() == 0) rehash(first_slots_);
-  // Most misses of the cache are over before the points are added one by one.
-  for (std::size_t i = 0; i < count; ++i) slots_.prefetch(batch.hash[i]);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t guess = slots_.first(batch.hash[i]);
-    if (guess != HashSlots::kNone) __builtin_prefetch(&sums_[guess]);
-  }
-  std::uint32_t index = kFull;
-  for (std::size_t i = 0; i < count; ++i) {
-    const LatticePoint key = batch.key(i);
-    if (index == kFull || !(sums_[index].key == key) || sums_[index].points >= most_points_) {
-      index = find_or_begin(key, batch.hash[i]);
-      if (index == kFull) return i;
-    }
-    VoxelSums& sums = sums_[index];
-    ++sums.points;
-    sums.offset[0] += batch.offset_x[i];
-    sums.offset[1] += batch.offset_y[i];
-    sums.offset[2] += batch.offset_z[i];
-    if constexpr (kColours) {
-      for (std::size_t channel = 0; channel < 3; ++channel) colours_[index][channel] += colours[i][channel];
-    }
-  }
-  return count;
-}
-
-std::size_t VoxelTable::add(std::span<const LatticePoint> positions, std::span<const RawColour> colours) {
+bool VoxelTable::add(std::span<const LatticePoint> positions, std::span<const RawColour> colours) {
   if (!colours.empty() && !has_colours_) start_colours();
-  Batch batch;
-  for (std::size_t done = 0; done < positions.size();) {
-    const std::size_t count = std::min(kBatch, positions.size() - done);
-    batch.fill(grid_, positions.subspan(done, count));
-    const std::size_t added = colours.empty() ? add_batch<false>(batch, count, nullptr)
-                                              : add_batch<true>(batch, count, colours.data() + done);
-    done += added;
-    if (added < count) return done;
+  const auto add_to = [&](std::size_t lane) {
+    looked_at_[lane] = lanes_[lane].add(positions, colours, looked_at_[lane]);
+  };
+  if (positions.size() < kLeastPoints) {
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) add_to(lane);
+  } else {
+    parallel_for_chunks(lanes_.size(), 1, [&](std::size_t lane, std::size_t) { add_to(lane); });
   }
-  return positions.size();
+  if (!std::ranges::all_of(looked_at_, [&](std::size_t at) { return at == positions.size(); })) return false;
+  std::ranges::fill(looked_at_, 0);
+  return true;
+}
+
+std::size_t VoxelTable::size() const {
+  std::size_t sum = 0;
+  for (const VoxelLane& lane : lanes_) sum += lane.size();
+  return sum;
+}
+
+/// All sums come to lie side by side.
+void VoxelTable::close_up() {
+  std::size_t end = lanes_[0].size();
+  for (std::size_t i = 1; i < lanes_.size(); ++i) {
+    const std::size_t count = lanes_[i].size();
+    if (count == 0) continue;
+    std::memmove(&sums_[end], &sums_[lane_sums_ * i], count * sizeof(VoxelSums));
+    if (has_colours_) std::memmove(&colours_[end], &colours_[lane_sums_ * i], count * sizeof(ColourSums));
+    end += count;
+  }
+}
+
+VoxelTable::Sorted VoxelTable::sorted() {
+  for (VoxelLane& lane : lanes_) lane.free_slots();
+  close_up();
+  return Sorted(*this);
+}
+
+void VoxelTable::clear() {
+  for (VoxelLane& lane : lanes_) lane.clear();
 }
 
 }  // namespace arris::tiling

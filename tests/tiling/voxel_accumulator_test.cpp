@@ -228,16 +228,37 @@ TEST(VoxelTotal, MorePointsThanInt32Holds_AreCounted) {
 }
 
 TEST(VoxelTable, ItsSums_FitItsBytes) {
-  constexpr std::size_t kBytes = 100'000;
-  VoxelTable table(VoxelGrid(1), kBytes);
+  constexpr std::size_t kBytes = 100'000, kRoom = kBytes / (sizeof(VoxelSums) + kOrderBytes);
   std::vector<LatticePoint> points;
   for (std::int32_t i = 0; i < 10'000; ++i) points.push_back({i, -i, 5});
-  EXPECT_EQ(table.add(points, {}), kBytes / (sizeof(VoxelSums) + kOrderBytes));
-  EXPECT_EQ(table.add(std::span(points).first(100), {}), 100U);  // Known voxels need no room.
-  std::size_t records = 0;
-  table.drain([&](const VoxelRecord&) { ++records; });
-  EXPECT_EQ(records, kBytes / (sizeof(VoxelSums) + kOrderBytes));
-  EXPECT_TRUE(table.empty());
+  for (const int threads : {1, 2, 5}) {
+    const ThreadLimit limit(threads);
+    VoxelTable table(VoxelGrid(1), kBytes);
+    EXPECT_TRUE(table.add(std::span(points).first(100), {}));
+    EXPECT_FALSE(table.add(points, {}));
+    std::size_t sums = 0, rounds = 1;
+    for (bool all = false; !all; ++rounds) {
+      const std::size_t size = table.sorted().size();
+      EXPECT_LE(size, kRoom);
+      EXPECT_GT(size, kRoom * 3 / 4) << "lanes get about as much each";
+      sums += size;
+      table.clear();
+      EXPECT_TRUE(table.empty());
+      all = table.add(points, {});
+    }
+    EXPECT_EQ(sums + table.sorted().size(), points.size()) << "no point is added twice";
+    EXPECT_EQ(rounds, points.size() / kRoom + 1);
+  }
+}
+
+TEST(VoxelTable, KnownVoxels_NeedNoRoom) {
+  const ThreadLimit limit(2);
+  VoxelTable table(VoxelGrid(1), 100'000);
+  std::vector<LatticePoint> points(50'000, {3, 4, 5});
+  EXPECT_TRUE(table.add(points, {}));
+  const VoxelTable::Sorted sums = table.sorted();
+  ASSERT_EQ(sums.size(), 1U);
+  EXPECT_EQ(sums[0].sums.points, points.size());
 }
 
 TEST(VoxelAccumulator, DiskFullAtAnyPoint_IsAnIoErrorWithTheReasonAndLeavesNoFiles) {

@@ -44,8 +44,7 @@ void TileComponents::list(TileGrowth& growth) const {
 std::uint32_t TileComponents::disc_of(std::uint32_t slot) const {
   const std::size_t count = points_.count(slot);
   if (count == 0) return 0;
-  const std::uint64_t d2 = squared_distance(tree_.position(slot), tree_.position(points_.last_neighbour(slot)));
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>(d2 / count, 0xffffffffU));
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(points_.squared_reach(slot) / count, 0xffffffffU));
 }
 
 bool TileComponents::all_around(std::uint32_t slot, std::uint32_t least) const {

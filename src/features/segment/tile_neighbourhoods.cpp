@@ -61,6 +61,8 @@ class TileNeighbourhoods::Runner {
     });
   }
   void take(std::uint32_t slot, PackedNeighbours& found, std::size_t count) {
+    const std::uint64_t reach2 = squared_reach(found, count);
+    all_.squared_reaches_[slot] = static_cast<std::uint32_t>(std::min<std::uint64_t>(reach2, kFar));
     if (found.narrow) {
       rows_.put(slot, count, [rows = found.rows.data() + 1](std::size_t i) { return rows[i].slot; });
     } else {
@@ -71,6 +73,10 @@ class TileNeighbourhoods::Runner {
     } else {
       batches_.add(slot, found, count, [&](auto&&... arguments) { put(arguments...); });
     }
+  }
+  static std::uint64_t squared_reach(const PackedNeighbours& found, std::size_t count) {
+    if (count == 0) return 0;
+    return count == found.count ? found.last_d2 : static_cast<std::uint64_t>(found.offset(count - 1).squared());
   }
   void put(std::uint32_t slot, const PointShape& shape, bool has_normal) {
     all_.shapes_[slot] = shape;
@@ -95,7 +101,8 @@ TileNeighbourhoods::TileNeighbourhoods(const PointTree& tree, const Lattice& lat
       rows_(tree.size(), rule_.most()),
       wanted_(tree.size(), 0),
       shapes_(tree.size()),
-      states_(tree.size(), ShapeState::kUnasked) {}
+      states_(tree.size(), ShapeState::kUnasked),
+      squared_reaches_(tree.size()) {}
 
 void TileNeighbourhoods::compute(std::span<const std::uint8_t> wanted) {
   const auto run_buckets = [&](Runner& runner, std::size_t first, std::size_t last) {
@@ -122,7 +129,7 @@ SearchLimits TileNeighbourhoods::limits(std::size_t k) const {
 
 double TileNeighbourhoods::reach_of(std::uint32_t slot) const {
   if (!full(slot)) return reach_steps_;
-  return distance(slot, last_neighbour(slot));
+  return std::sqrt(static_cast<double>(squared_reach(slot))) * kRoundedUp;
 }
 
 std::optional<double> TileNeighbourhoods::most_reach(std::size_t first, std::size_t last) const {
@@ -133,22 +140,17 @@ std::optional<double> TileNeighbourhoods::most_reach(std::size_t first, std::siz
     if (states_[slot] == ShapeState::kUnasked) continue;
     any = true;
     all_full = all_full && full(slot);
-    if (count(slot) > 0)
-      most2 = std::max(most2, squared_distance(tree_.position(slot), tree_.position(last_neighbour(slot))));
+    most2 = std::max(most2, squared_reach(slot));
   }
   if (!any) return std::nullopt;
   return all_full ? std::sqrt(static_cast<double>(most2)) * kRoundedUp : reach_steps_;
-}
-
-double TileNeighbourhoods::distance(std::uint32_t a, std::uint32_t b) const {
-  return std::sqrt(static_cast<double>(squared_distance(tree_.position(a), tree_.position(b)))) * kRoundedUp;
 }
 
 std::optional<double> TileNeighbourhoods::ball_of_most(std::uint32_t slot) const {
   std::optional<double> radius;
   NeighbourSearch search(tree_, limits(rule_.most()));
   search.run(std::span(&slot, 1), [&](std::uint32_t, const Neighbours& found) {
-    if (found.count == rule_.most()) radius = distance(slot, found.slot[found.count - 1]);
+    if (found.count == rule_.most()) radius = std::sqrt(static_cast<double>(found.last_d2)) * kRoundedUp;
   });
   return radius;
 }

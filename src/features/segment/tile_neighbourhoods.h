@@ -27,7 +27,7 @@ enum class ShapeState : std::uint8_t {
   kIsolated,  ///< Has none: fewer than 3 neighbours within reach, or all of them on a line with it.
 };
 
-/// Points go by their slots in the tree. Memory: NeighbourRows and 18 bytes per slot. Bits of what is found depend on
+/// Points go by their slots in the tree. Memory: NeighbourRows and 22 bytes per slot. Bits of what is found depend on
 /// the points within twice the reach and the parameters only. compute() runs in parallel; reading is thread-safe.
 class TileNeighbourhoods {
  public:
@@ -47,7 +47,11 @@ class TileNeighbourhoods {
   NeighbourList neighbours(std::uint32_t slot) const { return rows_[slot]; }
   std::size_t count(std::uint32_t slot) const { return rows_.count(slot); }
   std::uint32_t neighbour(std::uint32_t slot, std::size_t i) const { return rows_.at(slot, i); }
-  std::uint32_t last_neighbour(std::uint32_t slot) const { return rows_.last(slot); }  ///< If there is any.
+  /// Squared distance in steps of the last neighbour; 0: there is none. Of a slot that was asked for.
+  std::uint64_t squared_reach(std::uint32_t slot) const {
+    const std::uint32_t known = squared_reaches_[slot];
+    return known < kFar ? known : squared_distance(tree_.position(slot), tree_.position(rows_.last(slot)));
+  }
   /// By the rule and what is in sight; at most that if it is hardly anything. More in sight may make it more.
   std::size_t wanted(std::uint32_t slot) const { return wanted_[slot]; }
   bool full(std::uint32_t slot) const { return count(slot) == wanted(slot); }  ///< As many as wanted.
@@ -63,7 +67,8 @@ class TileNeighbourhoods {
  private:
   class Runner;
   SearchLimits limits(std::size_t k) const;
-  double distance(std::uint32_t a, std::uint32_t b) const;  ///< Rounded up.
+
+  static constexpr std::uint32_t kFar = 0xffffffffU;  ///< Of squared_reaches_: as much or more.
 
   const PointTree& tree_;
   NeighbourRule rule_;
@@ -73,6 +78,8 @@ class TileNeighbourhoods {
   PageVector<std::uint8_t> wanted_;
   PageVector<PointShape> shapes_;  ///< Where there is one.
   PageVector<ShapeState> states_;
+  /// Kept because most are asked for thrice, and the positions of last neighbours lie far apart in memory.
+  PageVector<std::uint32_t> squared_reaches_;
 };
 
 }  // namespace arris

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/pages.h"
 #include "core/parallel.h"
 
 namespace arris {
@@ -92,7 +93,7 @@ struct CellSeed {
   bool supported = false;
 };
 /// By cells. A list and not a map: where points are far apart there are as many cells as voxels.
-using CellSeeds = std::vector<CellSeed>;
+using CellSeeds = PageVector<CellSeed>;
 
 /// The nearest of each cell, ties: the first voxel.
 void keep_best(CellSeeds& cells) {

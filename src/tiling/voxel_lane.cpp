@@ -1,0 +1,192 @@
+#include "tiling/voxel_lane.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/avx2.h"
+#include "tiling/voxel_hash.h"
+
+namespace arris::tiling {
+namespace {
+
+constexpr std::size_t kBatch = 128;
+constexpr std::size_t kFirstSlots = std::size_t{1} << 16;
+constexpr std::size_t kGrowth = 8;
+// Where it is known how many sums are likely there are never many more.
+constexpr std::size_t kLikelyGrowth = 2;
+constexpr std::size_t kSpareShare = 8;
+constexpr std::uint32_t kFull = 0xffffffffU;
+// Bits of the hash that choose neither the line of a slot nor its place in the line, but for the largest tables.
+constexpr int kLaneBits = 8;
+
+}  // namespace
+
+/// Voxels of the points of a batch, by arrays.
+struct VoxelLane::Batch {
+  std::array<std::int32_t, kBatch> x{}, y{}, z{};
+  std::array<std::uint32_t, kBatch> offset_x{}, offset_y{}, offset_z{}, hash{};
+
+  LatticePoint key(std::size_t i) const { return {x[i], y[i], z[i]}; }
+
+  void fill(const VoxelGrid& grid, std::span<const LatticePoint> positions) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      offset_x[i] = static_cast<std::uint32_t>(positions[i].x);
+      offset_y[i] = static_cast<std::uint32_t>(positions[i].y);
+      offset_z[i] = static_cast<std::uint32_t>(positions[i].z);
+    }
+#if ARRIS_AVX2_VERSIONS
+    if (may_use_avx2()) return divide_avx2(grid);
+#endif
+    divide(grid);
+  }
+
+ private:
+  /// Whole arrays, axis by axis: these loops vectorise. Integers and one product each: the same bits everywhere.
+  __attribute__((always_inline)) void divide(const VoxelGrid& grid) {
+    divide(grid, offset_x, x);
+    divide(grid, offset_y, y);
+    divide(grid, offset_z, z);
+    for (std::size_t i = 0; i < kBatch; ++i) hash[i] = voxel_hash(x[i], y[i], z[i]);
+  }
+  /// Positions become offsets in voxels.
+  __attribute__((always_inline)) static void divide(const VoxelGrid& grid, std::array<std::uint32_t, kBatch>& offset,
+                                                    std::array<std::int32_t, kBatch>& voxel) {
+    for (std::size_t i = 0; i < kBatch; ++i) {
+      voxel[i] = grid.voxel_of(static_cast<std::int32_t>(offset[i]));
+      offset[i] -= grid.low_corner(voxel[i]);
+    }
+  }
+#if ARRIS_AVX2_VERSIONS
+  __attribute__((target("avx2"))) void divide_avx2(const VoxelGrid& grid) {
+    divide(grid);
+  }
+#endif
+};
+
+VoxelLane::VoxelLane(const VoxelGrid& grid, std::uint32_t number, std::uint32_t lanes, VoxelSums* sums,
+                     std::size_t likely_sums)
+    : grid_(grid),
+      number_(number),
+      lanes_(lanes),
+      sums_(sums),
+      likely_sums_(likely_sums),
+      growth_(likely_sums > 0 ? kLikelyGrowth : kGrowth) {}
+
+void VoxelLane::set_limits(std::size_t sums, std::uint32_t points) {
+  capacity_ = sums;
+  most_points_ = points;
+  if (first_slots_ > 0) return;
+  const std::size_t likely_slots = kSlotsPerSum * (likely_sums_ + likely_sums_ / kSpareShare);
+  first_slots_ = std::min(std::max(kFirstSlots, likely_slots), kSlotsPerSum * (capacity_ + 1));
+}
+
+void VoxelLane::start_colours(ColourSums* colours) {
+  colours_ = colours;
+  std::fill_n(colours_, size_, ColourSums{});
+}
+
+void VoxelLane::free_slots() {
+  slots_ = {};
+  slots_full_at_ = 0;
+}
+
+void VoxelLane::rehash(std::size_t slots) {
+  free_slots();
+  slots_ = HashSlots(slots, std::max(capacity_, size_));
+  slots_full_at_ = slots / kSlotsPerSum;
+  // Of sums of one voxel the last is the one that is not full.
+  constexpr std::size_t kAhead = 16;
+  for (std::size_t i = size_; i > 0; --i) {
+    if (i > kAhead) slots_.prefetch(voxel_hash(sums_[i - 1 - kAhead].key));
+    const std::uint32_t hash = voxel_hash(sums_[i - 1].key);
+    const std::size_t slot = find(sums_[i - 1].key, hash);
+    if (slots_.at(slot) == HashSlots::kNone) slots_.set(slot, hash, static_cast<std::uint32_t>(i - 1));
+  }
+}
+
+inline std::size_t VoxelLane::find(const LatticePoint& key, std::uint32_t hash) const {
+  return slots_.find(hash, [&](std::uint32_t index) { return sums_[index].key == key; });
+}
+
+inline std::uint32_t VoxelLane::begin_sum(const LatticePoint& key) {
+  sums_[size_] = {key, 0, {}};
+  if (colours_ != nullptr) colours_[size_] = {};
+  return static_cast<std::uint32_t>(size_++);
+}
+
+/// Index of the sum to add to, kFull if there is none and no room.
+inline std::uint32_t VoxelLane::find_or_begin(const LatticePoint& key, std::uint32_t hash) {
+  std::size_t slot = find(key, hash);
+  if (const std::uint32_t index = slots_.at(slot); index != HashSlots::kNone && sums_[index].points < most_points_) {
+    return index;
+  }
+  if (size_ >= capacity_) return kFull;
+  if (size_ >= slots_full_at_) {
+    first_slots_ = std::min(growth_ * slots_.size(), kSlotsPerSum * (capacity_ + 1));
+    rehash(first_slots_);
+    slot = find(key, hash);
+  }
+  const std::uint32_t index = begin_sum(key);
+  slots_.set(slot, hash, index);
+  return index;
+}
+
+/// @return how many of the batch it has looked at.
+template <bool kColours, bool kAll>
+std::size_t VoxelLane::add_batch(const Batch& batch, std::size_t count, const RawColour* colours) {
+  if (slots_.size() == 0) rehash(first_slots_);
+  std::array<std::uint8_t, kBatch> own;
+  std::size_t size = count;
+  if constexpr (!kAll) {
+    size = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      own[size] = static_cast<std::uint8_t>(i);
+      size += (batch.hash[i] >> kLaneBits & (lanes_ - 1)) == number_;
+    }
+  }
+  const auto place = [&](std::size_t i) { return kAll ? i : std::size_t{own[i]}; };
+  // Most misses of the cache are over before the points are added one by one.
+  for (std::size_t i = 0; i < size; ++i) slots_.prefetch(batch.hash[place(i)]);
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint32_t guess = slots_.first(batch.hash[place(i)]);
+    if (guess != HashSlots::kNone) __builtin_prefetch(&sums_[guess]);
+  }
+  std::uint32_t index = kFull;
+  for (std::size_t j = 0; j < size; ++j) {
+    const std::size_t i = place(j);
+    const LatticePoint key = batch.key(i);
+    if (index == kFull || !(sums_[index].key == key) || sums_[index].points >= most_points_) {
+      index = find_or_begin(key, batch.hash[i]);
+      if (index == kFull) return i;
+    }
+    VoxelSums& sums = sums_[index];
+    ++sums.points;
+    sums.offset[0] += batch.offset_x[i];
+    sums.offset[1] += batch.offset_y[i];
+    sums.offset[2] += batch.offset_z[i];
+    if constexpr (kColours) {
+      for (std::size_t channel = 0; channel < 3; ++channel) colours_[index][channel] += colours[i][channel];
+    }
+  }
+  return count;
+}
+
+std::size_t VoxelLane::add(std::span<const LatticePoint> positions, std::span<const RawColour> colours,
+                           std::size_t from) {
+  Batch batch;
+  const bool all = lanes_ == 1;
+  for (std::size_t done = from; done < positions.size();) {
+    const std::size_t count = std::min(kBatch, positions.size() - done);
+    batch.fill(grid_, positions.subspan(done, count));
+    const RawColour* const of_batch = colours.empty() ? nullptr : colours.data() + done;
+    const std::size_t added =
+        colours.empty()
+            ? (all ? add_batch<false, true>(batch, count, nullptr) : add_batch<false, false>(batch, count, nullptr))
+            : (all ? add_batch<true, true>(batch, count, of_batch) : add_batch<true, false>(batch, count, of_batch));
+    done += added;
+    if (added < count) return done;
+  }
+  return positions.size();
+}
+
+}  // namespace arris::tiling

@@ -1,0 +1,63 @@
+#pragma once
+/// @file Sums points per voxel in one part of a table of voxels.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/voxel.h"
+#include "tiling/hash_slots.h"
+#include "tiling/voxel_sums.h"
+
+namespace arris::tiling {
+
+/// Voxels are dealt out to lanes by their hashes: each lane looks at all points and adds those of its voxels, so that
+/// lanes run side by side and share nothing. Sums lie in the order of their first points; slots with open addressing
+/// lead to them. A sum that is full (most_points_summed) is left and another one begun for the same voxel, so 32 bits
+/// suffice. Not thread-safe.
+class VoxelLane {
+ public:
+  /// Lanes are powers of two up to this.
+  static constexpr std::uint32_t kMostLanes = 4;
+  /// Up to so many bytes of slots per sum.
+  static constexpr std::size_t kSlotsPerSum = 3;
+
+  /// @param number  of `lanes`. @param sums  where its sums go. @param likely_sums  about so many, 0: not known.
+  VoxelLane(const VoxelGrid& grid, std::uint32_t number, std::uint32_t lanes, VoxelSums* sums, std::size_t likely_sums);
+
+  /// @param sums  at most. @param points  in a sum, at most.
+  void set_limits(std::size_t sums, std::uint32_t points);
+  /// From here on there are colours. @param colours  where their sums go, beside the others.
+  void start_colours(ColourSums* colours);
+
+  /// Adds its points from `from` on; returns where it stopped: before the end only if it is full.
+  /// @param colours  as many as positions, or none.
+  std::size_t add(std::span<const LatticePoint> positions, std::span<const RawColour> colours, std::size_t from);
+  std::size_t size() const { return size_; }
+  void free_slots();
+  /// To be called when the sums were taken.
+  void clear() { size_ = 0; }
+
+ private:
+  struct Batch;
+  template <bool kColours, bool kAll>
+  std::size_t add_batch(const Batch& batch, std::size_t count, const RawColour* colours);
+  std::size_t find(const LatticePoint& key, std::uint32_t hash) const;
+  std::uint32_t find_or_begin(const LatticePoint& key, std::uint32_t hash);
+  std::uint32_t begin_sum(const LatticePoint& key);
+  void rehash(std::size_t slots);
+
+  VoxelGrid grid_;
+  std::uint32_t number_, lanes_;
+  VoxelSums* sums_;
+  ColourSums* colours_ = nullptr;  // Beside sums_, if there are any.
+  std::size_t capacity_ = 0, size_ = 0;
+  std::uint32_t most_points_ = 0;
+  HashSlots slots_;  // To sums_.
+  std::size_t likely_sums_;
+  std::size_t first_slots_ = 0;    // As many as there were last.
+  std::size_t slots_full_at_ = 0;  // Sums at which slots_ must grow.
+  std::size_t growth_;             // So many times.
+};
+
+}  // namespace arris::tiling
