@@ -28,7 +28,8 @@ io::AttributeReader& ColourSource::reader(std::size_t source_index) {
   return *reader_;
 }
 
-std::unique_ptr<ColourSource> ColourSource::open(io::InputSet& inputs, const CancelToken& cancel) {
+std::unique_ptr<ColourSource> ColourSource::open(io::InputSet& inputs, ProgressSink& progress,
+                                                 const CancelToken& cancel) {
   std::unique_ptr<ColourSource> colours(new ColourSource(inputs));
   for (std::size_t i = 0; i < inputs.sources().size(); ++i) {
     io::AttributeReader& attributes = colours->reader(i);
@@ -36,12 +37,13 @@ std::unique_ptr<ColourSource> ColourSource::open(io::InputSet& inputs, const Can
       if (!attributes.has(c)) return nullptr;
     }
   }
-  colours->scan_ranges(inputs, cancel);
+  colours->scan_ranges(inputs, progress, cancel);
   if (std::max(colours->largest_[0], colours->largest_[1]) <= 0.0) return nullptr;
   return colours;
 }
 
-void ColourSource::scan_ranges(io::InputSet& inputs, const CancelToken& cancel) {
+void ColourSource::scan_ranges(io::InputSet& inputs, ProgressSink& progress, const CancelToken& cancel) {
+  progress.phase("colours", inputs.points());
   bool wanted[2] = {false, false};
   for (const io::SourceInfo& source : inputs.sources()) wanted[group(source.format)] = true;
   inputs.rewind();
@@ -50,6 +52,7 @@ void ColourSource::scan_ranges(io::InputSet& inputs, const CancelToken& cancel) 
   options.records = true;
   while ((wanted[0] || wanted[1]) && inputs.read(batch, options)) {
     cancel.check();
+    progress.advance(batch.count);
     const std::size_t g = group(inputs.sources()[inputs.source_index()].format);
     if (!wanted[g]) continue;
     io::AttributeReader& attributes = reader(inputs.source_index());
@@ -83,9 +86,9 @@ void ColourSource::read(const io::PointBatch& batch, std::size_t source_index, s
 }
 
 std::unique_ptr<ColourSource> wanted_colours(io::InputSet& inputs, SupervoxelParameters::Colour wanted,
-                                             const CancelToken& cancel) {
+                                             ProgressSink& progress, const CancelToken& cancel) {
   if (wanted == SupervoxelParameters::Colour::kOff) return nullptr;
-  std::unique_ptr<ColourSource> colours = ColourSource::open(inputs, cancel);
+  std::unique_ptr<ColourSource> colours = ColourSource::open(inputs, progress, cancel);
   if (wanted == SupervoxelParameters::Colour::kOn && !colours)
     throw ConfigError("--colour on: not every input has colours that are not all black; leave it out, or --colour off");
   return colours;

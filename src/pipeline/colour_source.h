@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/cancel.h"
+#include "core/progress.h"
 #include "core/voxel.h"
 #include "features/supervoxel/supervoxel_parameters.h"
 #include "io/attribute_reader.h"
@@ -20,7 +21,7 @@ class ColourSource {
  public:
   /// Looks at the inputs until it knows their ranges (usually a few batches). @return nullptr if an input has no
   /// colours, or if all are black.
-  static std::unique_ptr<ColourSource> open(io::InputSet& inputs, const CancelToken& cancel);
+  static std::unique_ptr<ColourSource> open(io::InputSet& inputs, ProgressSink& progress, const CancelToken& cancel);
 
   /// Colours of a batch that was read with records.
   void read(const io::PointBatch& batch, std::size_t source_index, std::vector<RawColour>& colours);
@@ -28,7 +29,7 @@ class ColourSource {
  private:
   explicit ColourSource(const io::InputSet& inputs);
   io::AttributeReader& reader(std::size_t source_index);
-  void scan_ranges(io::InputSet& inputs, const CancelToken& cancel);
+  void scan_ranges(io::InputSet& inputs, ProgressSink& progress, const CancelToken& cancel);
   double full(io::Format format) const;
 
   const io::InputSet& inputs_;
@@ -41,6 +42,6 @@ class ColourSource {
 /// The colours that voxels get: nullptr if they get none. Throws ConfigError if colours are demanded and an input has
 /// none.
 std::unique_ptr<ColourSource> wanted_colours(io::InputSet& inputs, SupervoxelParameters::Colour wanted,
-                                             const CancelToken& cancel);
+                                             ProgressSink& progress, const CancelToken& cancel);
 
 }  // namespace arris::pipeline

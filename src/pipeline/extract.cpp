@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "core/error.h"
 #include "core/memory_budget.h"
@@ -34,14 +35,14 @@ struct LabelledScene {
   SupervoxelTable table;
 };
 
-std::unique_ptr<const LabelledScene> label_scene(io::InputSet& inputs, const JobPlan& plan,
+std::unique_ptr<const LabelledScene> label_scene(io::InputSet& inputs, JobPlan& plan,
                                                  const ExtractRequest& request, const std::filesystem::path& folder,
                                                  ProgressSink& progress, const CancelToken& cancel) {
   auto labelled = std::make_unique<LabelledScene>(
       LabelledScene{make_supervoxel_scene(inputs, plan.survey,
                                           {plan.method.supervoxel, plan.scale, request.memory_bytes,
-                                           request.tile_points_cap, true, plan.colours.get(), folder},
-                                          progress, cancel),
+                                           request.tile_points_cap, true, folder},
+                                          std::move(plan.colours), progress, cancel),
                     {}});
   require_room_for_moments(labelled->scene, request.memory_bytes);
   merge::SupervoxelMoments moments(labelled->scene.clusters.count, kReachCells * plan.scale.seed_steps);
@@ -130,7 +131,6 @@ ExtractReport extract(const ExtractRequest& request, ProgressSink& progress, con
   std::unique_ptr<const LabelledScene> labelled;
   if (plan.method.by_supervoxels() && plan.method.any_test()) {
     labelled = label_scene(inputs, plan, request, folder.path(), sink, cancel);
-    plan.colours.reset();
     report.voxels = labelled->scene.store.size();
     report.supervoxels = labelled->scene.clusters.count;
     report.voxel_tiles = labelled->scene.clusters.tiles;

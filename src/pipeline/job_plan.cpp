@@ -44,7 +44,7 @@ JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, Progress
     ZhengParameters& zheng = plan.method.zheng;
     if (zheng.spacing == 0.0) zheng.spacing = std::max(plan.survey.spacing, plan.survey.lattice.step);
     plan.scale = resolve_scale(plan.method.supervoxel, zheng.spacing, plan.survey.lattice);
-    plan.colours = wanted_colours(inputs, plan.method.supervoxel.colour, cancel);
+    plan.colours = wanted_colours(inputs, plan.method.supervoxel.colour, progress, cancel);
     plan.voxel_temp_bytes =
         predicted_voxel_temp_bytes(plan.survey, plan.scale, plan.colours != nullptr, VoxelMemory(request.memory_bytes));
   } else {

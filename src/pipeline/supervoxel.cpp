@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -37,7 +38,7 @@ SurveyedScan survey_scan(io::InputSet& inputs, const SupervoxelRequest& request,
   warn_of_dropped(report, progress);
   const double spacing = request.spacing > 0.0 ? request.spacing : scan.survey.spacing;
   scan.scale = resolve_scale(report.parameters, spacing, scan.survey.lattice);
-  scan.colours = wanted_colours(inputs, report.parameters.colour, cancel);
+  scan.colours = wanted_colours(inputs, report.parameters.colour, progress, cancel);
   report.predicted_temp_bytes =
       predicted_voxel_temp_bytes(scan.survey, scan.scale, scan.colours != nullptr, VoxelMemory(request.memory_bytes));
   check_temp_space(report.predicted_temp_bytes, request, progress);
@@ -91,15 +92,15 @@ SupervoxelReport label_supervoxels(const SupervoxelRequest& request, ProgressSin
       open_writers(request, inputs, {{"SupervoxelId", ColumnType::kUint32, "supervoxel, 0 none"}}, true, report);
   inputs.exclude(request.exclusion);
 
-  const auto [survey, scale, colours] = survey_scan(inputs, request, problems, report, sink, cancel);
+  auto [survey, scale, colours] = survey_scan(inputs, request, problems, report, sink, cancel);
   watch.lap("survey");
 
   const RunFolder folder(request.temp_dir);
   const SupervoxelScene scene =
       make_supervoxel_scene(inputs, survey,
                             {report.parameters, scale, request.memory_bytes, request.tile_points_cap,
-                             !request.adjacency.empty(), colours.get(), folder.path()},
-                            sink, cancel);
+                             !request.adjacency.empty(), folder.path()},
+                            std::move(colours), sink, cancel);
   const SupervoxelStageResult& clusters = scene.clusters;
   report.colours = scene.colours;
   report.voxels = scene.store.size();

@@ -15,11 +15,12 @@
 namespace arris::pipeline {
 
 SupervoxelScene make_supervoxel_scene(io::InputSet& inputs, const tiling::Survey& survey,
-                                      const SupervoxelSceneRequest& request, ProgressSink& progress,
-                                      const CancelToken& cancel) {
+                                      const SupervoxelSceneRequest& request, std::unique_ptr<ColourSource> colours,
+                                      ProgressSink& progress, const CancelToken& cancel) {
   const VoxelMemory memory(request.memory_bytes);
   VoxelStageResult voxels =
-      run_voxel_stage(inputs, survey, request.scale, request.colours, request.folder, memory, progress, cancel);
+      run_voxel_stage(inputs, survey, request.scale, colours.get(), request.folder, memory, progress, cancel);
+  colours.reset();
   trim_heap();
   const SupervoxelStageRequest stage{{request.parameters, request.scale, voxels.colours, memory.stage_bytes(),
                                       request.tile_voxels_cap, request.memory_bytes, request.folder},

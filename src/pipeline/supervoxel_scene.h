@@ -22,8 +22,7 @@ struct SupervoxelSceneRequest {
   std::uint64_t memory_bytes = 0;  ///< Budget of the whole process.
   std::uint64_t tile_voxels_cap = 0;
   bool adjacency = false;
-  ColourSource* colours = nullptr;  ///< Of the inputs; nullptr: voxels have none.
-  std::filesystem::path folder;     ///< For temporary files.
+  std::filesystem::path folder;  ///< For temporary files.
 };
 
 /// No two points of a supervoxel are further apart along an axis than this many seed cells: growth reaches 1.8 on both
@@ -44,9 +43,9 @@ struct SupervoxelScene {
 /// Throws BudgetError unless the moments of all supervoxels and their table fit beside what is resident.
 void require_room_for_moments(const SupervoxelScene& scene, std::uint64_t budget_bytes);
 
-/// Voxel pass and clustering. Throws BudgetError, IoError, Cancelled, and what reading throws.
+/// Voxel pass and clustering. @param colours  of the inputs, gone when voxels have theirs; nullptr: none. Throws BudgetError, IoError, Cancelled, and what reading throws.
 SupervoxelScene make_supervoxel_scene(io::InputSet& inputs, const tiling::Survey& survey,
-                                      const SupervoxelSceneRequest& request, ProgressSink& progress,
-                                      const CancelToken& cancel);
+                                      const SupervoxelSceneRequest& request, std::unique_ptr<ColourSource> colours,
+                                      ProgressSink& progress, const CancelToken& cancel);
 
 }  // namespace arris::pipeline

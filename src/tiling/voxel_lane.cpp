@@ -63,12 +63,13 @@ struct VoxelLane::Batch {
 #endif
 };
 
-VoxelLane::VoxelLane(const VoxelGrid& grid, std::uint32_t number, std::uint32_t lanes, VoxelSums* sums,
+VoxelLane::VoxelLane(const VoxelGrid& grid, std::uint32_t number, const LaneBlocks& blocks, VoxelSums* sums,
                      std::size_t likely_sums)
     : grid_(grid),
       number_(number),
-      lanes_(lanes),
+      blocks_(blocks),
       sums_(sums),
+      next_(blocks.index(number, 0)),
       likely_sums_(likely_sums),
       growth_(likely_sums > 0 ? kLikelyGrowth : kGrowth) {}
 
@@ -82,7 +83,12 @@ void VoxelLane::set_limits(std::size_t sums, std::uint32_t points) {
 
 void VoxelLane::start_colours(ColourSums* colours) {
   colours_ = colours;
-  std::fill_n(colours_, size_, ColourSums{});
+  for (std::size_t i = 0; i < size_; ++i) colours_[blocks_.index(number_, i)] = {};
+}
+
+void VoxelLane::clear() {
+  size_ = 0;
+  next_ = blocks_.index(number_, 0);
 }
 
 void VoxelLane::free_slots() {
@@ -92,15 +98,16 @@ void VoxelLane::free_slots() {
 
 void VoxelLane::rehash(std::size_t slots) {
   free_slots();
-  slots_ = HashSlots(slots, std::max(capacity_, size_));
+  slots_ = HashSlots(slots, blocks_.index(blocks_.lanes - 1, std::max(capacity_, size_)));
   slots_full_at_ = slots / kSlotsPerSum;
   // Of sums of one voxel the last is the one that is not full.
   constexpr std::size_t kAhead = 16;
   for (std::size_t i = size_; i > 0; --i) {
-    if (i > kAhead) slots_.prefetch(voxel_hash(sums_[i - 1 - kAhead].key));
-    const std::uint32_t hash = voxel_hash(sums_[i - 1].key);
-    const std::size_t slot = find(sums_[i - 1].key, hash);
-    if (slots_.at(slot) == HashSlots::kNone) slots_.set(slot, hash, static_cast<std::uint32_t>(i - 1));
+    if (i > kAhead) slots_.prefetch(voxel_hash(sums_[blocks_.index(number_, i - 1 - kAhead)].key));
+    const std::size_t index = blocks_.index(number_, i - 1);
+    const std::uint32_t hash = voxel_hash(sums_[index].key);
+    const std::size_t slot = find(sums_[index].key, hash);
+    if (slots_.at(slot) == HashSlots::kNone) slots_.set(slot, hash, static_cast<std::uint32_t>(index));
   }
 }
 
@@ -109,9 +116,11 @@ inline std::size_t VoxelLane::find(const LatticePoint& key, std::uint32_t hash) 
 }
 
 inline std::uint32_t VoxelLane::begin_sum(const LatticePoint& key) {
-  sums_[size_] = {key, 0, {}};
-  if (colours_ != nullptr) colours_[size_] = {};
-  return static_cast<std::uint32_t>(size_++);
+  const std::size_t index = next_;
+  sums_[index] = {key, 0, {}};
+  if (colours_ != nullptr) colours_[index] = {};
+  next_ = blocks_.index(number_, ++size_);
+  return static_cast<std::uint32_t>(index);
 }
 
 /// Index of the sum to add to, kFull if there is none and no room.
@@ -141,7 +150,7 @@ std::size_t VoxelLane::add_batch(const Batch& batch, std::size_t count, const Ra
     size = 0;
     for (std::size_t i = 0; i < count; ++i) {
       own[size] = static_cast<std::uint8_t>(i);
-      size += (batch.hash[i] >> kLaneBits & (lanes_ - 1)) == number_;
+      size += (batch.hash[i] >> kLaneBits & (blocks_.lanes - 1)) == number_;
     }
   }
   const auto place = [&](std::size_t i) { return kAll ? i : std::size_t{own[i]}; };
@@ -174,7 +183,7 @@ std::size_t VoxelLane::add_batch(const Batch& batch, std::size_t count, const Ra
 std::size_t VoxelLane::add(std::span<const LatticePoint> positions, std::span<const RawColour> colours,
                            std::size_t from) {
   Batch batch;
-  const bool all = lanes_ == 1;
+  const bool all = blocks_.lanes == 1;
   for (std::size_t done = from; done < positions.size();) {
     const std::size_t count = std::min(kBatch, positions.size() - done);
     batch.fill(grid_, positions.subspan(done, count));

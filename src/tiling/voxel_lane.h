@@ -11,6 +11,16 @@
 
 namespace arris::tiling {
 
+/// How lanes share an array: a block for the first, one for the second and so on, again and again, so that there are
+/// hardly any holes when they hold about as much as each other.
+struct LaneBlocks {
+  static constexpr std::size_t kSize = 4096;  ///< Of a block.
+  std::size_t lanes = 1;
+
+  /// Of the array, for the i-th element of a lane.
+  std::size_t index(std::size_t lane, std::size_t i) const { return (i / kSize * lanes + lane) * kSize + i % kSize; }
+};
+
 /// Voxels are dealt out to lanes by their hashes: each lane looks at all points and adds those of its voxels, so that
 /// lanes run side by side and share nothing. Sums lie in the order of their first points; slots with open addressing
 /// lead to them. A sum that is full (most_points_summed) is left and another one begun for the same voxel, so 32 bits
@@ -22,12 +32,13 @@ class VoxelLane {
   /// Up to so many bytes of slots per sum.
   static constexpr std::size_t kSlotsPerSum = 3;
 
-  /// @param number  of `lanes`. @param sums  where its sums go. @param likely_sums  about so many, 0: not known.
-  VoxelLane(const VoxelGrid& grid, std::uint32_t number, std::uint32_t lanes, VoxelSums* sums, std::size_t likely_sums);
+  /// @param number  of blocks.lanes. @param sums  of all lanes. @param likely_sums  of this, about; 0: not known.
+  VoxelLane(const VoxelGrid& grid, std::uint32_t number, const LaneBlocks& blocks, VoxelSums* sums,
+            std::size_t likely_sums);
 
   /// @param sums  at most. @param points  in a sum, at most.
   void set_limits(std::size_t sums, std::uint32_t points);
-  /// From here on there are colours. @param colours  where their sums go, beside the others.
+  /// From here on there are colours. @param colours  of all lanes, beside the other sums.
   void start_colours(ColourSums* colours);
 
   /// Adds its points from `from` on; returns where it stopped: before the end only if it is full.
@@ -36,7 +47,7 @@ class VoxelLane {
   std::size_t size() const { return size_; }
   void free_slots();
   /// To be called when the sums were taken.
-  void clear() { size_ = 0; }
+  void clear();
 
  private:
   struct Batch;
@@ -48,10 +59,12 @@ class VoxelLane {
   void rehash(std::size_t slots);
 
   VoxelGrid grid_;
-  std::uint32_t number_, lanes_;
+  std::uint32_t number_;
+  LaneBlocks blocks_;
   VoxelSums* sums_;
   ColourSums* colours_ = nullptr;  // Beside sums_, if there are any.
   std::size_t capacity_ = 0, size_ = 0;
+  std::size_t next_ = 0;  // Where the next sum goes.
   std::uint32_t most_points_ = 0;
   HashSlots slots_;  // To sums_.
   std::size_t likely_sums_;

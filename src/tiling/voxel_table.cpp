@@ -10,7 +10,7 @@ namespace arris::tiling {
 namespace {
 
 /// No index of a sum is as large.
-constexpr std::size_t kMostSums = 0xfffffffeU;
+constexpr std::size_t kMostSums = 0xffff0000U;
 /// Points that are worth waking a thread for.
 constexpr std::size_t kLeastPoints = 2048;
 
@@ -28,26 +28,34 @@ std::size_t sum_bytes(bool colours) {
 
 VoxelTable::VoxelTable(const VoxelGrid& grid, std::size_t size_bytes, std::size_t likely_sums)
     : grid_(grid), size_bytes_(size_bytes) {
-  const std::uint32_t lanes = lane_count();
-  lane_sums_ = std::clamp<std::size_t>(size_bytes_ / sum_bytes(false), lanes, kMostSums) / lanes;
-  sums_ = PageArray<VoxelSums>(lane_sums_ * lanes);
-  for (std::uint32_t i = 0; i < lanes; ++i)
-    lanes_.emplace_back(grid, i, lanes, &sums_[lane_sums_ * i], likely_sums / lanes);
-  looked_at_.assign(lanes, 0);
+  blocks_ = {lane_count()};
+  sums_ = PageArray<VoxelSums>(room());
+  for (std::uint32_t i = 0; i < blocks_.lanes; ++i)
+    lanes_.emplace_back(grid, i, blocks_, &sums_[0], likely_sums / blocks_.lanes);
+  looked_at_.assign(blocks_.lanes, 0);
   set_limits();
 }
 
+/// Of each lane.
+std::size_t VoxelTable::lane_sums(bool colours) const {
+  return std::clamp<std::size_t>(size_bytes_ / sum_bytes(colours), blocks_.lanes, kMostSums) / blocks_.lanes;
+}
+
+/// Of the arrays. Blocks that nothing is written to take no memory.
+std::size_t VoxelTable::room() const {
+  return blocks_.index(blocks_.lanes - 1, lane_sums(false)) + 1;
+}
+
 void VoxelTable::set_limits() {
-  const std::size_t sums = std::clamp<std::size_t>(size_bytes_ / sum_bytes(has_colours_), lanes_.size(), kMostSums);
   for (VoxelLane& lane : lanes_)
-    lane.set_limits(sums / lanes_.size(), most_points_summed(grid_.side_steps(), has_colours_));
+    lane.set_limits(lane_sums(has_colours_), most_points_summed(grid_.side_steps(), has_colours_));
 }
 
 void VoxelTable::start_colours() {
   has_colours_ = true;
   set_limits();
-  colours_ = PageArray<ColourSums>(lane_sums_ * lanes_.size());
-  for (std::size_t i = 0; i < lanes_.size(); ++i) lanes_[i].start_colours(&colours_[lane_sums_ * i]);
+  colours_ = PageArray<ColourSums>(room());
+  for (VoxelLane& lane : lanes_) lane.start_colours(&colours_[0]);
 }
 
 bool VoxelTable::add(std::span<const LatticePoint> positions, std::span<const RawColour> colours) {
@@ -71,15 +79,20 @@ std::size_t VoxelTable::size() const {
   return sum;
 }
 
-/// All sums come to lie side by side.
+/// All sums come to lie side by side: from the first block that is not full those behind it move up.
 void VoxelTable::close_up() {
-  std::size_t end = lanes_[0].size();
-  for (std::size_t i = 1; i < lanes_.size(); ++i) {
-    const std::size_t count = lanes_[i].size();
-    if (count == 0) continue;
-    std::memmove(&sums_[end], &sums_[lane_sums_ * i], count * sizeof(VoxelSums));
-    if (has_colours_) std::memmove(&colours_[end], &colours_[lane_sums_ * i], count * sizeof(ColourSums));
-    end += count;
+  constexpr std::size_t kBlock = LaneBlocks::kSize;
+  const auto [least, most] = std::ranges::minmax_element(lanes_, {}, [](const VoxelLane& lane) { return lane.size(); });
+  const std::size_t first = least->size() / kBlock * kBlock;
+  std::size_t end = first * lanes_.size();
+  for (std::size_t begin = first; begin < most->size(); begin += kBlock) {
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+      if (lanes_[lane].size() <= begin) continue;
+      const std::size_t count = std::min(lanes_[lane].size() - begin, kBlock), from = blocks_.index(lane, begin);
+      std::memmove(&sums_[end], &sums_[from], count * sizeof(VoxelSums));
+      if (has_colours_) std::memmove(&colours_[end], &colours_[from], count * sizeof(ColourSums));
+      end += count;
+    }
   }
 }
 

@@ -60,11 +60,13 @@ class VoxelTable {
   std::size_t size() const;
   void set_limits();
   void start_colours();
+  std::size_t lane_sums(bool colours) const;
+  std::size_t room() const;
   void close_up();
 
   VoxelGrid grid_;
   std::size_t size_bytes_;
-  std::size_t lane_sums_ = 0;  // Room of each in sums_.
+  LaneBlocks blocks_;  // Of sums_ and colours_.
   bool has_colours_ = false;
   PageArray<VoxelSums> sums_;
   PageArray<ColourSums> colours_;  // Beside sums_, if has_colours_.

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "silent_sink.h"
 #include "support/coloured_scan.h"
 #include "support/las_tools.h"
 #include "support/temp_folder.h"
@@ -25,7 +26,8 @@ std::vector<ColouredPoint> points_with(const std::vector<std::array<double, 3>>&
 std::vector<RawColour> colours_of(const Paths& paths) {
   io::InputSet inputs(paths);
   const CancelToken cancel;
-  const auto source = ColourSource::open(inputs, cancel);
+  test::SilentSink sink;
+  const auto source = ColourSource::open(inputs, sink, cancel);
   if (!source) return {};
   std::vector<RawColour> all;
   std::vector<RawColour> batch_colours;

@@ -39,7 +39,7 @@ class SupervoxelStage : public ::testing::Test {
     const tiling::Survey survey = tiling::survey_inputs(inputs, {}, sink_, cancel_);
     scale_ = resolve_scale(parameters_, survey.spacing, survey.lattice);
     voxels_.reset();
-    const std::unique_ptr<ColourSource> colours = wanted_colours(inputs, colour, cancel_);
+    const std::unique_ptr<ColourSource> colours = wanted_colours(inputs, colour, sink_, cancel_);
     voxels_.emplace(run_voxel_stage(inputs, survey, scale_, colours.get(), folder_.path(),
                                     VoxelMemory(std::uint64_t{1} << 30), sink_, cancel_));
   }
