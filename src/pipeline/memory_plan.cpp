@@ -19,9 +19,8 @@ constexpr std::uint64_t kLeastSpoolBytes = 4 * kMiB;
 constexpr std::uint64_t kPassBytes = 48 * kMiB;
 /// Queries, the index of their regions, blocks of tile files.
 constexpr std::uint64_t kWidenBytes = 32 * kMiB;
-/// Beyond this a larger tile saves nothing: what its halo takes less, its memory takes more, which the system has to
-/// clear.
-constexpr std::uint64_t kLargestTilePoints = 1'200'000;
+/// Beyond this a larger tile saves nothing: its halo is already a few percent of its core.
+constexpr std::uint64_t kLargestTilePoints = 2'000'000;
 /// On top of the least budget that is named: what is resident differs from run to run.
 constexpr std::uint64_t kSpareBytes = 4 * kMiB;
 /// Kept free: the allocator's fragments and what predictions miss.

@@ -21,6 +21,13 @@ constexpr double kTileFileBytesPerPoint = 24.0;
 constexpr std::uint64_t kCellsOfATile = 64;
 constexpr std::uint64_t kMostBytesPerTile = 64 * 1024;
 
+/// Larger tiles have less halo, but the system has to clear the memory of the first ones: where few follow, that costs
+/// more than it saves.
+std::uint64_t most_tile_points(std::uint64_t scan_points) {
+  constexpr std::uint64_t kWorthIt = 1'200'000, kTiles = 4;
+  return std::max(kWorthIt, scan_points / kTiles);
+}
+
 tiling::TilePlan plan_tiles_around_crowds(const tiling::Survey& survey, const tiling::PlanRequest& request,
                                           io::InputSet& inputs, ProgressSink& progress, const CancelToken& cancel) {
   tiling::PlanCells cells(survey, request.max_points / kCellsOfATile);
@@ -35,7 +42,7 @@ tiling::TilePlan plan_tiles_around_crowds(const tiling::Survey& survey, const ti
 void plan_tiles_of(TileJob& job, const TileNeeds& needs, io::InputSet& inputs, const RunRequest& request,
                    ProgressSink& progress, const CancelToken& cancel) {
   tiling::PlanRequest tiles;
-  tiles.max_points = job.memory.max_tile_points;
+  tiles.max_points = std::min(job.memory.max_tile_points, most_tile_points(job.survey.points()));
   tiles.max_core_points = request.tile_points_cap;
   tiles.halo = needs.halo;
   tiles.max_radius = needs.max_radius;

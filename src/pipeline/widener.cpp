@@ -18,6 +18,9 @@
 namespace arris::pipeline {
 namespace {
 
+/// To look ahead for fewer costs more readings than it saves.
+constexpr std::size_t kLeastAheadQueries = 256;
+
 tiling::QueryRegions regions_of(std::span<const UnprovenQuery> queries) {
   tiling::QueryRegions regions;
   for (const UnprovenQuery& query : queries) regions.add(query.position, query.reach_steps);
@@ -62,19 +65,24 @@ std::vector<UnprovenQuery> Widener::answer(std::span<const UnprovenQuery> querie
 /// from one to the other.
 void Widener::look_around(std::span<const UnprovenQuery> queries) {
   const std::uint64_t most_points = group_bytes_ / 5 / NearbyPoints::kBytesPerPoint;
-  if (looks_ahead_) {
+  const auto look_around_halves = [&] {
+    look_around(queries.first(queries.size() / 2));
+    look_around(queries.subspan(queries.size() / 2));
+  };
+  if (ahead_queries_ >= kLeastAheadQueries) {
+    if (queries.size() > ahead_queries_) return look_around_halves();
     const std::vector<UnprovenQuery> far = as_far_as_ever(queries);
     if (const std::optional<NearbyPoints> points = read(far, most_points, Detail::kLeaves))
       return answer_within(*points, queries, far);
-    looks_ahead_ = false;  // What does not fit here is unlikely to fit elsewhere.
+    ahead_queries_ = queries.size() / 2;  // What does not fit here is unlikely to fit elsewhere.
+    if (ahead_queries_ >= kLeastAheadQueries) return look_around_halves();
   }
   if (const std::optional<NearbyPoints> points = read(queries, most_points, Detail::kPoints)) {
     answer_within(*points, queries, queries);
   } else if (queries.size() == 1) {
     alone_.push_back(queries[0]);
   } else {
-    look_around(queries.first(queries.size() / 2));
-    look_around(queries.subspan(queries.size() / 2));
+    look_around_halves();
   }
 }
 

@@ -2,6 +2,7 @@
 /// @file Answers queries that need a wider view than their tiles had.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -46,7 +47,8 @@ class Widener {
   std::uint64_t all_bytes_;    ///< There are for points and their analysis.
   std::uint64_t group_bytes_;  ///< That groups take of them: no more than tiles did, which is what was foretold.
   std::uint64_t isolated_ = 0;
-  bool looks_ahead_ = true;             ///< What queries may come to ask for is read with what they ask for.
+  /// What so many queries may come to ask for is read with what they ask for.
+  std::size_t ahead_queries_ = std::numeric_limits<std::size_t>::max();
   std::vector<UnprovenQuery> farther_;  ///< Of the queries being answered.
   std::vector<UnprovenQuery> alone_;    ///< Have more around them than goes with others in memory.
 };

@@ -52,6 +52,7 @@ TEST(ExactTiling, ThinnedChains_SameBytes) {
 }
 
 TEST(ExactTiling, Duplicates_SameBytes) {
+  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
   const TempFolder folder;
   write_duplicates(folder / "twice.las");
   expect_same_bytes(folder / "twice.las", small_matrix(), 20);

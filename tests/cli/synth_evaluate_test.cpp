@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "support/arris_process.h"
-#include "support/sanitizers.h"
 #include "support/temp_folder.h"
 
 namespace arris::test {
@@ -50,7 +49,6 @@ TEST(SynthTown_Truth, OfTheScan_IsTheDefaultAndTheSameForAnyThreads) {
 }
 
 TEST(EvaluateLocalSpacing, InputAsPrediction_CoversTheTruthOfItsScan) {
-  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
   const TempFolder folder;
   const std::string scan = folder / "scan.las", truth = folder / "truth.csv";
   ASSERT_EQ(run_arris(small_town("50000", scan, truth)).exit_code, 0);
@@ -73,7 +71,6 @@ TEST(EvaluateLocalSpacing, InputAsPrediction_CoversTheTruthOfItsScan) {
 }
 
 TEST(SynthLabels, AreAColumnMore_AndTheRestStaysTheSame) {
-  ARRIS_SKIP_UNDER_THREAD_SANITIZER;
   const TempFolder folder;
   for (const std::string scene : {"block", "town"}) {
     const std::string plain = folder / "plain.ply", labelled = folder / "labelled.ply";
