@@ -29,8 +29,6 @@ double table_entry_bytes(bool colours) {
 /// Neighbours of a voxel of a surface.
 constexpr double kNeighbours = 12.0;
 constexpr double kNormalBytes = 12.0;
-/// What voxels next to nothing take besides, as seeds and leftovers. Measured.
-constexpr double kLoneBytes = 24.0;
 /// Per supervoxel: plane, table, neighbours.
 constexpr double kSupervoxelBytes = 120.0;
 
@@ -121,7 +119,7 @@ double largest_tile(const tiling::Survey& survey, const SupervoxelScale& scale, 
 }  // namespace
 
 double VoxelEstimate::lone() const {
-  return std::clamp(2.0 * blocks - voxels, 0.0, voxels);
+  return lone_voxels(voxels, blocks);
 }
 
 double likely_voxels(const tiling::Survey& survey, const SupervoxelScale& scale) {

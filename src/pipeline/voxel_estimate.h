@@ -15,8 +15,7 @@ struct VoxelEstimate {
   double clusters = 0.0;  ///< Those with voxels that touch each other.
   double index_bytes = 0.0;
 
-  /// Voxels with a block to themselves: next to nothing, or nearly all where voxels are finer than the scan.
-  double lone() const;
+  double lone() const;  ///< lone_voxels().
 };
 
 /// The points of a cell fill what voxels a surface through it crosses. Within a tenth on towns of any density.

@@ -38,6 +38,10 @@ double likely_neighbours(double block_voxels) {
   return 8.0 + 18.0 * std::min(1.0, 2.0 * block_voxels / kBlockVoxels);
 }
 
+double lone_voxels(double voxels, double blocks) {
+  return std::clamp(2.0 * blocks - voxels, 0.0, voxels);
+}
+
 std::uint64_t most_tile_voxels(double room_bytes, double bytes_per_voxel) {
   return std::max(kLeastTileVoxels, static_cast<std::uint64_t>(std::max(room_bytes, 0.0) / bytes_per_voxel));
 }
@@ -56,7 +60,10 @@ void VoxelTileWalk::plan(std::uint64_t kept_bytes) {
   const auto tile_bytes = static_cast<std::uint64_t>(each * static_cast<double>(largest_tile_voxels()));
   // What larger tiles have left must not be resident beside what is kept now.
   if (spare_pages_bytes() > tile_bytes) drop_spare_pages();
-  predicted_bytes_ = kept_bytes + tile_bytes;
+  const auto voxels = static_cast<double>(std::max<std::uint64_t>(1, store_.size()));
+  const double lone = lone_voxels(voxels, static_cast<double>(store_.index().blocks())) / voxels;
+  predicted_bytes_ = kept_bytes + tile_bytes +
+                     static_cast<std::uint64_t>(kLoneBytes * lone * static_cast<double>(largest_tile_voxels()));
   require(predicted_bytes_);
 }
 

@@ -40,6 +40,10 @@ struct TileWalkRequest {
 /// Neighbours of a voxel, from how many voxels share a block of the index: about 8 to 14 on surfaces, 26 in solids.
 /// Rather too many. @param block_voxels  mean over voxels.
 double likely_neighbours(double block_voxels);
+/// What voxels next to nothing take besides, as seeds and leftovers. Measured.
+constexpr double kLoneBytes = 48.0;
+/// Those with a block of the index to themselves: next to nothing, or nearly all where voxels are finer than the scan.
+double lone_voxels(double voxels, double blocks);
 /// So many voxels of a tile fit, or the least that a tile is cut to.
 std::uint64_t most_tile_voxels(double room_bytes, double bytes_per_voxel);
 
