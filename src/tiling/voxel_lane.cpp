@@ -16,6 +16,8 @@ constexpr std::size_t kGrowth = 8;
 constexpr std::size_t kLikelyGrowth = 2;
 constexpr std::size_t kSpareShare = 8;
 constexpr std::uint32_t kFull = 0xffffffffU;
+// No more memory than sorting takes afterwards.
+constexpr std::size_t kSlotsPerSum = 3;
 // Bits of the hash that choose neither the line of a slot nor its place in the line, but for the largest tables.
 constexpr int kLaneBits = 8;
 

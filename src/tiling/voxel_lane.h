@@ -29,8 +29,6 @@ class VoxelLane {
  public:
   /// Lanes are powers of two up to this.
   static constexpr std::uint32_t kMostLanes = 4;
-  /// Up to so many bytes of slots per sum.
-  static constexpr std::size_t kSlotsPerSum = 3;
 
   /// @param number  of blocks.lanes. @param sums  of all lanes. @param likely_sums  of this, about; 0: not known.
   VoxelLane(const VoxelGrid& grid, std::uint32_t number, const LaneBlocks& blocks, VoxelSums* sums,
