@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "io/bytes.h"
 #include "io/las_extra_bytes.h"
@@ -30,9 +31,13 @@ ColumnRanges::ColumnRanges(const std::vector<ColumnSpec>& columns) {
     ranges_.push_back({column.type, offset});
     offset += size_bytes(column.type);
   }
+  last_.reserve(offset);
+  row_bytes_ = offset;
 }
 
 void ColumnRanges::add(const std::byte* row) {
+  if (!last_.empty() && std::memcmp(row, last_.data(), row_bytes_) == 0) return;
+  last_.assign(row, row + row_bytes_);
   for (Range& range : ranges_) {
     const double value = load_scalar(scalar_type(range.type), row + range.offset);
     if (std::isnan(value)) continue;

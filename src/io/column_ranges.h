@@ -29,6 +29,8 @@ class ColumnRanges {
     bool any = false;
   };
   std::vector<Range> ranges_;
+  std::size_t row_bytes_ = 0;
+  std::vector<std::byte> last_;  ///< The row before: labels of neighbours are mostly the same.
 };
 
 }  // namespace arris::io

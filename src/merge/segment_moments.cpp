@@ -22,18 +22,20 @@ void SegmentMoments::change(std::uint32_t segment, const LatticePoint& p, int si
     s.has_origin = true;
   }
   s.points += static_cast<std::uint64_t>(std::int64_t{sign});
-  const Wide x = std::int64_t{p.x} - s.origin.x;
-  const Wide y = std::int64_t{p.y} - s.origin.y;
-  const Wide z = std::int64_t{p.z} - s.origin.z;
-  s.first[0] += sign * x;
-  s.first[1] += sign * y;
-  s.first[2] += sign * z;
-  s.second[0] += sign * x * x;
-  s.second[1] += sign * x * y;
-  s.second[2] += sign * x * z;
-  s.second[3] += sign * y * y;
-  s.second[4] += sign * y * z;
-  s.second[5] += sign * z * z;
+  const std::int64_t x = std::int64_t{p.x} - s.origin.x;
+  const std::int64_t y = std::int64_t{p.y} - s.origin.y;
+  const std::int64_t z = std::int64_t{p.z} - s.origin.z;
+  const std::int64_t signed_x = sign * x, signed_y = sign * y, signed_z = sign * z;
+  // One multiplication of 64 by 64 bits each.
+  s.first[0] += signed_x;
+  s.first[1] += signed_y;
+  s.first[2] += signed_z;
+  s.second[0] += Wide{signed_x} * x;
+  s.second[1] += Wide{signed_x} * y;
+  s.second[2] += Wide{signed_x} * z;
+  s.second[3] += Wide{signed_y} * y;
+  s.second[4] += Wide{signed_y} * z;
+  s.second[5] += Wide{signed_z} * z;
 }
 
 SegmentPlane SegmentMoments::plane(std::uint32_t segment) const {

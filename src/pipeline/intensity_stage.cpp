@@ -5,11 +5,14 @@
 #include <functional>
 #include <memory>
 
+#include "core/pages.h"
 #include "io/attribute_reader.h"
 #include "pipeline/batch_pass.h"
 
 namespace arris::pipeline {
 namespace {
+
+constexpr std::size_t kWords = 65536;
 
 /// LAS inputs are judged together, and PLY inputs.
 std::size_t group(io::Format format) {
@@ -24,6 +27,7 @@ class IntensityPasses {
   IntensityTable run() {
     if (!find_intensities()) return std::move(table_);
     table_.of_point.resize(inputs_.points());
+    if (keeps_words()) return from_words();
     // Most scans have 8 bits: with the bytes written at once they are done.
     pass("intensity", [&](std::size_t g, const io::PointBatch& batch) {
       groups_[g].add(values_);
@@ -39,12 +43,39 @@ class IntensityPasses {
     if (scales[0].scaled || scales[1].scaled) {
       pass("intensity scaling", [&](std::size_t g, const io::PointBatch& batch) { store_bytes(scales[g], batch); });
     }
+    return with_scales(scales);
+  }
+
+ private:
+  /// Where there are only words, and few, they are read once.
+  bool keeps_words() const {
+    constexpr std::uint64_t kMostWords = 8'000'000;
+    const auto& sources = inputs_.sources();
+    return inputs_.points() <= kMostWords &&
+           std::ranges::all_of(sources, [](const auto& source) { return source.format == io::Format::kLas; });
+  }
+
+  IntensityTable from_words() {
+    PageVector<std::uint16_t> words(inputs_.points());
+    pass("intensity", [&](std::size_t g, const io::PointBatch& batch) {
+      groups_[g].add(values_);
+      std::uint16_t* const of_batch = words.data() + batch.first_id;
+      for (std::size_t i = 0; i < batch.count; ++i) of_batch[i] = static_cast<std::uint16_t>(values_[i]);
+    });
+    groups_[0].needs_refining();  // Never, but it finds the percentiles.
+    const IntensityScale scale = groups_[0].scale();
+    std::array<std::uint8_t, kWords> byte_of;
+    for (std::size_t word = 0; word < kWords; ++word) byte_of[word] = scale.byte_of(static_cast<double>(word));
+    std::ranges::transform(words, table_.of_point.begin(), [&](std::uint16_t word) { return byte_of[word]; });
+    return with_scales({scale, {}});
+  }
+
+  IntensityTable with_scales(const std::array<IntensityScale, 2>& scales) {
     for (std::size_t i = 0; i < table_.files.size(); ++i)
       table_.files[i].scale = scales[group(inputs_.sources()[i].format)];
     return std::move(table_);
   }
 
- private:
   static std::unique_ptr<io::AttributeReader> open(const io::SourceInfo& source) {
     return std::make_unique<io::AttributeReader>(source.path, std::vector<std::string>{"intensity"});
   }

@@ -28,8 +28,9 @@ struct IntensityTable {
 /// together and for all PLY inputs together, never for a single file, because nothing may depend on how a scan is split
 /// into files. Exclusions and filters of the inputs play no part (setting them later saves their time).
 ///
-/// Passes over the inputs: one for 8-bit values, two for LAS of more, three for PLY of more. Memory: 1 byte per point
-/// of the inputs, and 2 MB while it runs.
+/// Passes over the inputs: one for 8-bit values and for LAS of up to 8 million points, two for LAS of more, three for
+/// PLY of more than 8 bits. Memory: 1 byte per point of the inputs, and while it runs 2 MB and, for LAS of up to 8
+/// million points, 2 bytes per point.
 IntensityTable read_intensities(io::InputSet& inputs, ProgressSink& progress, const CancelToken& cancel);
 
 }  // namespace arris::pipeline

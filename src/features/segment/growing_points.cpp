@@ -1,5 +1,6 @@
 #include "features/segment/growing_points.h"
 
+#include <array>
 #include <cmath>
 
 #include "core/parallel.h"
@@ -13,12 +14,15 @@ constexpr std::size_t kGrain = 4096;
 class Agreement {
  public:
   Agreement(const TileNeighbourhoods& points, const Likeness& likeness, double share)
-      : points_(points), likeness_(likeness), share_(share) {}
+      : points_(points), likeness_(likeness) {
+    for (std::size_t count = 0; count < needed_.size(); ++count)
+      needed_[count] = static_cast<std::size_t>(std::ceil(share * static_cast<double>(count)));
+  }
 
   /// Most points agree with the first that are looked at: neighbours are read one by one.
   bool operator()(std::uint32_t slot) const {
     const std::size_t count = points_.count(slot);
-    const auto needed = static_cast<std::size_t>(std::ceil(share_ * static_cast<double>(count)));
+    const std::size_t needed = needed_[count];
     std::size_t like = 0;
     for (std::size_t i = 0; i < count && like < needed; ++i) {
       const std::uint32_t neighbour = points_.neighbour(slot, i);
@@ -30,7 +34,7 @@ class Agreement {
  private:
   const TileNeighbourhoods& points_;
   const Likeness& likeness_;
-  double share_;
+  std::array<std::size_t, kMostNeighbours + 1> needed_{};  ///< Of so many neighbours.
 };
 
 }  // namespace

@@ -50,7 +50,22 @@ double IntensityPercentiles::value_of(std::uint32_t key) const {
   return std::bit_cast<float>((key & kSign) != 0 ? key & ~kSign : ~key);
 }
 
+void IntensityPercentiles::add_words(std::span<const double> intensities) {
+  if (intensities.empty()) return;
+  std::uint32_t least = static_cast<std::uint32_t>(kHalf), greatest = 0;
+  for (const double value : intensities) {
+    const auto word = static_cast<std::uint32_t>(value);
+    ++upper_[word];
+    least = std::min(least, word);
+    greatest = std::max(greatest, word);
+  }
+  least_ = count_ == 0 ? least : std::min<double>(least_, least);
+  greatest_ = std::max<double>(greatest_, greatest);
+  count_ += intensities.size();
+}
+
 void IntensityPercentiles::add(std::span<const double> intensities) {
+  if (values_ == Values::kWords) return add_words(intensities);
   for (const double value : intensities) {
     if (!std::isfinite(value)) continue;
     ++upper_[key_of(value) >> 16];

@@ -46,6 +46,7 @@ class IntensityPercentiles {
     std::vector<std::uint64_t> lower;  ///< Counts of lower halves.
   };
 
+  void add_words(std::span<const double> intensities);
   bool is_8_bit() const;
   std::uint32_t key_of(double intensity) const;
   double value_of(std::uint32_t key) const;
