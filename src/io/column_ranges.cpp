@@ -35,8 +35,17 @@ ColumnRanges::ColumnRanges(const std::vector<ColumnSpec>& columns) {
   row_bytes_ = offset;
 }
 
+bool ColumnRanges::same_row(const std::byte* row) const {
+  std::uint32_t label;
+  if (row_bytes_ != sizeof(label)) return std::memcmp(row, last_.data(), row_bytes_) == 0;
+  std::uint32_t last;  // A row of one label, without a call.
+  std::memcpy(&label, row, sizeof(label));
+  std::memcpy(&last, last_.data(), sizeof(last));
+  return label == last;
+}
+
 void ColumnRanges::add(const std::byte* row) {
-  if (!last_.empty() && std::memcmp(row, last_.data(), row_bytes_) == 0) return;
+  if (!last_.empty() && same_row(row)) return;
   last_.assign(row, row + row_bytes_);
   for (Range& range : ranges_) {
     const double value = load_scalar(scalar_type(range.type), row + range.offset);

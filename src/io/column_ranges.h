@@ -21,6 +21,7 @@ class ColumnRanges {
   void patch_entries(OutputFile& output, std::uint64_t offset) const;
 
  private:
+  bool same_row(const std::byte* row) const;
   struct Range {
     ColumnType type;
     std::size_t offset;  ///< In the row.

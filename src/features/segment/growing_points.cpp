@@ -21,14 +21,15 @@ class Agreement {
 
   /// Most points agree with the first that are looked at: neighbours are read one by one.
   bool operator()(std::uint32_t slot) const {
-    const std::size_t count = points_.count(slot);
-    const std::size_t needed = needed_[count];
+    const std::size_t needed = needed_[points_.count(slot)];
+    if (needed == 0) return true;
+    const Likeness::With alike(likeness_, slot);
     std::size_t like = 0;
-    for (std::size_t i = 0; i < count && like < needed; ++i) {
-      const std::uint32_t neighbour = points_.neighbour(slot, i);
-      like += points_.state(neighbour) == ShapeState::kShaped && likeness_.alike(slot, neighbour);
-    }
-    return like >= needed;
+    points_.visit_neighbours(slot, [&](std::uint32_t neighbour) {
+      like += points_.state(neighbour) == ShapeState::kShaped && alike(neighbour);
+      return like < needed;
+    });
+    return like == needed;
   }
 
  private:

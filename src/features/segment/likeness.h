@@ -29,6 +29,26 @@ class Likeness {
   bool alike(std::uint32_t a, std::uint32_t b) const {
     return alignment(a, b) > least_alignment_ && same_material(a, b);
   }
+  /// alike(a, b) for one a and many b.
+  class With {
+   public:
+    With(const Likeness& likeness, std::uint32_t a)
+        : likeness_(likeness),
+          a_(a),
+          nx_(likeness.points_.shape(a).nx),
+          ny_(likeness.points_.shape(a).ny),
+          nz_(likeness.points_.shape(a).nz) {}
+    bool operator()(std::uint32_t b) const {
+      const PointShape& q = likeness_.points_.shape(b);
+      return std::fabs(nx_ * q.nx + ny_ * q.ny + nz_ * q.nz) > likeness_.least_alignment_ &&
+             likeness_.same_material(a_, b);
+    }
+
+   private:
+    const Likeness& likeness_;
+    std::uint32_t a_;
+    double nx_, ny_, nz_;
+  };
   bool same_material(std::uint32_t a, std::uint32_t b) const {
     return intensities_.empty() || std::abs(int{intensities_[a]} - int{intensities_[b]}) < step_;
   }

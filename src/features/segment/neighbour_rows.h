@@ -60,6 +60,20 @@ class NeighbourRows {
     if ((counts_[slot] & kFar) != 0) return far_row(slot)[i];
     return slot + static_cast<std::uint32_t>(std::int32_t{near_[std::size_t{slot} * most_ + i]});
   }
+  /// Calls use(slot of neighbour) in order until it returns false.
+  template <class Use>
+  void visit(std::uint32_t slot, Use&& use) const {
+    const std::size_t size = count(slot);
+    if ((counts_[slot] & kFar) != 0) {
+      const std::uint32_t* const row = far_row(slot);
+      for (std::size_t i = 0; i < size; ++i)
+        if (!use(row[i])) return;
+    } else {
+      const std::int16_t* const row = near_.data() + std::size_t{slot} * most_;
+      for (std::size_t i = 0; i < size; ++i)
+        if (!use(slot + static_cast<std::uint32_t>(std::int32_t{row[i]}))) return;
+    }
+  }
   /// Of a row that is not empty.
   std::uint32_t last(std::uint32_t slot) const { return at(slot, count(slot) - 1); }
 

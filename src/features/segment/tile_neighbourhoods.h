@@ -46,7 +46,11 @@ class TileNeighbourhoods {
   /// By (distance, id).
   NeighbourList neighbours(std::uint32_t slot) const { return rows_[slot]; }
   std::size_t count(std::uint32_t slot) const { return rows_.count(slot); }
-  std::uint32_t neighbour(std::uint32_t slot, std::size_t i) const { return rows_.at(slot, i); }
+  /// Calls use(neighbour) in that order until it returns false: cheaper than all of them where that is soon.
+  template <class Use>
+  void visit_neighbours(std::uint32_t slot, Use&& use) const {
+    rows_.visit(slot, use);
+  }
   /// Squared distance in steps of the last neighbour; 0: there is none. Of a slot that was asked for.
   std::uint64_t squared_reach(std::uint32_t slot) const {
     const std::uint32_t known = squared_reaches_[slot];
