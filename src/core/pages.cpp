@@ -73,13 +73,14 @@ class SparePages {
     const std::lock_guard lock(mutex_);
     const bool large = size >= 2 * kLargePage;
     if (const std::uintptr_t begin = take_stretch(size, large ? kLargePage : kPage)) return begin;
-    // What does not fit must not be resident beside what is made anew.
+    // As much as is made anew must go of what does not fit.
     if (!large) {
-      drop_all();
+      drop_least(whole(size, kLargePage));
       return begin_of_large_pages(size);
     }
     const std::uintptr_t begin = map_large(size);
-    if (!gather(begin, size / kLargePage)) drop_all();
+    const std::size_t gathered = gather(begin, size / kLargePage) * kLargePage;
+    if (gathered < size) drop_least(size - gathered);
     return begin;
   }
   void keep(const Stretch& stretch) noexcept {
@@ -153,23 +154,31 @@ class SparePages {
       unmap(stretch);
     }
   }
+  /// At least so much, the smallest stretches first: they are the least likely to fit anything.
+  void drop_least(std::size_t size) noexcept {
+    for (std::size_t gone = 0; gone < size && !spare_.empty();) {
+      const auto least = std::ranges::min_element(spare_, {}, &Stretch::size_bytes);
+      gone += least->size_bytes;
+      unmap(*least);
+      spare_.erase(least);
+    }
+  }
   void drop_all() noexcept {
     for (const Stretch& stretch : spare_) unmap(stretch);
     spare_.clear();
   }
 
-  /// Puts spare large pages in the place of fresh ones; false if there are not enough.
-  bool gather([[maybe_unused]] std::uintptr_t to, [[maybe_unused]] std::size_t count) {
+  /// Puts spare large pages in the place of fresh ones, as many as there are. @return how many.
+  std::size_t gather([[maybe_unused]] std::uintptr_t to, [[maybe_unused]] std::size_t count) {
+    std::size_t gathered = 0;
 #if defined(MREMAP_FIXED)
-    for (std::size_t i = 0; i < count && i < kMostGathered; ++i, to += kLargePage) {
+    for (; gathered < std::min(count, kMostGathered); ++gathered, to += kLargePage) {
       const std::uintptr_t from = take_stretch(kLargePage, kLargePage);
-      if (from == 0) return false;
+      if (from == 0) break;
       move_large_page(from, to);
     }
-    return count <= kMostGathered;
-#else
-    return false;
 #endif
+    return gathered;
   }
 
 #if defined(MREMAP_FIXED)

@@ -83,6 +83,19 @@ TEST(Pages, TrimmingLeavesWhatIsAllowed) {
   EXPECT_EQ(spare_pages_bytes(), 0U);
 }
 
+TEST(Pages, WhatDoesNotFit_GoesAsFarAsOtherPagesAreMade) {
+  drop_spare_pages();
+  std::array<void*, 8> blocks;
+  for (void*& block : blocks) block = take_written(kMiB);
+  for (std::size_t i = 0; i < blocks.size(); i += 2) return_pages(blocks[i], kMiB);
+  EXPECT_EQ(spare_pages_bytes(), 4 * kMiB);
+  void* const longer = take_written(3 * kMiB / 2);  // A large page is made: two of the stretches go, its rest is spare.
+  EXPECT_EQ(spare_pages_bytes(), 5 * kMiB / 2);
+  return_pages(longer, 3 * kMiB / 2);
+  for (std::size_t i = 1; i < blocks.size(); i += 2) return_pages(blocks[i], kMiB);
+  drop_spare_pages();
+}
+
 TEST(Pages, StretchesTooShort_AreGathered) {
   drop_spare_pages();
   std::array<void*, 6> blocks;

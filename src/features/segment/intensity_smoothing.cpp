@@ -64,13 +64,17 @@ class Smoother {
       : points_(points), from_(from), to_(to) {}
 
   void add(std::uint32_t slot) {
-    const NeighbourList neighbours = points_.neighbours(slot);
-    auto& batch = batches_[neighbours.size() + 1];
-    if (!batch) batch = std::make_unique<MedianBatch>(neighbours.size() + 1);
+    const std::size_t values = points_.count(slot) + 1;
+    auto& batch = batches_[values];
+    if (!batch) batch = std::make_unique<MedianBatch>(values);
     const std::size_t lane = batch->lanes++;
     batch->slot[lane] = slot;
     batch->values[0][lane] = from_[slot];
-    for (std::size_t i = 0; i < neighbours.size(); ++i) batch->values[i + 1][lane] = from_[neighbours[i]];
+    std::size_t i = 0;
+    points_.visit_neighbours(slot, [&](std::uint32_t neighbour) {
+      batch->values[++i][lane] = from_[neighbour];
+      return true;
+    });
     if (batch->lanes == kLanes) settle(*batch);
   }
   void finish() {
