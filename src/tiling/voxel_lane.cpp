@@ -71,7 +71,6 @@ VoxelLane::VoxelLane(const VoxelGrid& grid, std::uint32_t number, const LaneBloc
       number_(number),
       blocks_(blocks),
       sums_(sums),
-      next_(blocks.index(number, 0)),
       likely_sums_(likely_sums),
       growth_(likely_sums > 0 ? kLikelyGrowth : kGrowth) {}
 
@@ -86,11 +85,6 @@ void VoxelLane::set_limits(std::size_t sums, std::uint32_t points) {
 void VoxelLane::start_colours(ColourSums* colours) {
   colours_ = colours;
   for (std::size_t i = 0; i < size_; ++i) colours_[blocks_.index(number_, i)] = {};
-}
-
-void VoxelLane::clear() {
-  size_ = 0;
-  next_ = blocks_.index(number_, 0);
 }
 
 void VoxelLane::free_slots() {
@@ -118,10 +112,9 @@ inline std::size_t VoxelLane::find(const LatticePoint& key, std::uint32_t hash) 
 }
 
 inline std::uint32_t VoxelLane::begin_sum(const LatticePoint& key) {
-  const std::size_t index = next_;
+  const std::size_t index = blocks_.index(number_, size_++);
   sums_[index] = {key, 0, {}};
   if (colours_ != nullptr) colours_[index] = {};
-  next_ = blocks_.index(number_, ++size_);
   return static_cast<std::uint32_t>(index);
 }
 

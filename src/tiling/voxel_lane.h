@@ -45,7 +45,7 @@ class VoxelLane {
   std::size_t size() const { return size_; }
   void free_slots();
   /// To be called when the sums were taken.
-  void clear();
+  void clear() { size_ = 0; }
 
  private:
   struct Batch;
@@ -62,7 +62,6 @@ class VoxelLane {
   VoxelSums* sums_;
   ColourSums* colours_ = nullptr;  // Beside sums_, if there are any.
   std::size_t capacity_ = 0, size_ = 0;
-  std::size_t next_ = 0;  // Where the next sum goes.
   std::uint32_t most_points_ = 0;
   HashSlots slots_;  // To sums_.
   std::size_t likely_sums_;

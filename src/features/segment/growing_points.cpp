@@ -23,10 +23,10 @@ class Agreement {
   bool operator()(std::uint32_t slot) const {
     const std::size_t needed = needed_[points_.count(slot)];
     if (needed == 0) return true;
-    const Likeness::With alike(likeness_, slot);
+    const Likeness::With point(likeness_, slot);
     std::size_t like = 0;
     points_.visit_neighbours(slot, [&](std::uint32_t neighbour) {
-      like += points_.state(neighbour) == ShapeState::kShaped && alike(neighbour);
+      like += points_.state(neighbour) == ShapeState::kShaped && point.alike(neighbour);
       return like < needed;
     });
     return like == needed;

@@ -38,9 +38,8 @@ std::uint8_t IntensityScale::byte_of(double intensity) const {
   return static_cast<std::uint8_t>(kMostByte * (value - low) / (high - low) + 0.5);
 }
 
-/// Keys have the order of the values.
+/// Keys have the order of the values. Of kAny; a word is its own upper half.
 std::uint32_t IntensityPercentiles::key_of(double intensity) const {
-  if (values_ == Values::kWords) return static_cast<std::uint32_t>(intensity) << 16;
   const auto bits = std::bit_cast<std::uint32_t>(to_float(intensity) + 0.0F);  // -0 becomes 0.
   return (bits & kSign) != 0 ? ~bits : bits | kSign;
 }

@@ -20,16 +20,7 @@ class Likeness {
 
   void use_intensities(std::span<const std::uint8_t> of_slot) { intensities_ = of_slot; }
 
-  /// |n . n'|. Both must have a normal.
-  double alignment(std::uint32_t a, std::uint32_t b) const {
-    const PointShape& p = points_.shape(a);
-    const PointShape& q = points_.shape(b);
-    return std::fabs(double{p.nx} * q.nx + double{p.ny} * q.ny + double{p.nz} * q.nz);
-  }
-  bool alike(std::uint32_t a, std::uint32_t b) const {
-    return alignment(a, b) > least_alignment_ && same_material(a, b);
-  }
-  /// alike(a, b) for one a and many b.
+  /// One point beside many others. All must have a normal.
   class With {
    public:
     With(const Likeness& likeness, std::uint32_t a)
@@ -38,10 +29,13 @@ class Likeness {
           nx_(likeness.points_.shape(a).nx),
           ny_(likeness.points_.shape(a).ny),
           nz_(likeness.points_.shape(a).nz) {}
-    bool operator()(std::uint32_t b) const {
+    /// |n . n'|.
+    double alignment(std::uint32_t b) const {
       const PointShape& q = likeness_.points_.shape(b);
-      return std::fabs(nx_ * q.nx + ny_ * q.ny + nz_ * q.nz) > likeness_.least_alignment_ &&
-             likeness_.same_material(a_, b);
+      return std::fabs(nx_ * q.nx + ny_ * q.ny + nz_ * q.nz);
+    }
+    bool alike(std::uint32_t b) const {
+      return alignment(b) > likeness_.least_alignment_ && likeness_.same_material(a_, b);
     }
 
    private:
@@ -49,6 +43,8 @@ class Likeness {
     std::uint32_t a_;
     double nx_, ny_, nz_;
   };
+  double alignment(std::uint32_t a, std::uint32_t b) const { return With(*this, a).alignment(b); }
+  bool alike(std::uint32_t a, std::uint32_t b) const { return With(*this, a).alike(b); }
   bool same_material(std::uint32_t a, std::uint32_t b) const {
     return intensities_.empty() || std::abs(int{intensities_[a]} - int{intensities_[b]}) < step_;
   }
