@@ -27,11 +27,13 @@ class IntensityPasses {
   IntensityTable run() {
     if (!find_intensities()) return std::move(table_);
     table_.of_point.resize(inputs_.points());
-    if (keeps_words()) return from_words();
+    PageVector<std::uint16_t> words(keeps_words() ? inputs_.points() : 0);
     // Most scans have 8 bits: with the bytes written at once they are done.
     pass("intensity", [&](std::size_t g, const io::PointBatch& batch) {
       groups_[g].add(values_);
-      store_bytes({}, batch);
+      if (words.empty()) return store_bytes({}, batch);
+      std::uint16_t* const of_batch = words.data() + batch.first_id;
+      for (std::size_t i = 0; i < batch.count; ++i) of_batch[i] = static_cast<std::uint16_t>(values_[i]);
     });
     const std::array<bool, 2> refine{groups_[0].needs_refining(), groups_[1].needs_refining()};
     if (refine[0] || refine[1]) {
@@ -40,10 +42,14 @@ class IntensityPasses {
       });
     }
     const std::array<IntensityScale, 2> scales{groups_[0].scale(), groups_[1].scale()};
-    if (scales[0].scaled || scales[1].scaled) {
+    if (!words.empty()) {
+      store_bytes(scales[0], words);
+    } else if (scales[0].scaled || scales[1].scaled) {
       pass("intensity scaling", [&](std::size_t g, const io::PointBatch& batch) { store_bytes(scales[g], batch); });
     }
-    return with_scales(scales);
+    for (std::size_t i = 0; i < table_.files.size(); ++i)
+      table_.files[i].scale = scales[group(inputs_.sources()[i].format)];
+    return std::move(table_);
   }
 
  private:
@@ -53,27 +59,6 @@ class IntensityPasses {
     const auto& sources = inputs_.sources();
     return inputs_.points() <= kMostWords &&
            std::ranges::all_of(sources, [](const auto& source) { return source.format == io::Format::kLas; });
-  }
-
-  IntensityTable from_words() {
-    PageVector<std::uint16_t> words(inputs_.points());
-    pass("intensity", [&](std::size_t g, const io::PointBatch& batch) {
-      groups_[g].add(values_);
-      std::uint16_t* const of_batch = words.data() + batch.first_id;
-      for (std::size_t i = 0; i < batch.count; ++i) of_batch[i] = static_cast<std::uint16_t>(values_[i]);
-    });
-    groups_[0].needs_refining();  // Never, but it finds the percentiles.
-    const IntensityScale scale = groups_[0].scale();
-    std::array<std::uint8_t, kWords> byte_of;
-    for (std::size_t word = 0; word < kWords; ++word) byte_of[word] = scale.byte_of(static_cast<double>(word));
-    std::ranges::transform(words, table_.of_point.begin(), [&](std::uint16_t word) { return byte_of[word]; });
-    return with_scales({scale, {}});
-  }
-
-  IntensityTable with_scales(const std::array<IntensityScale, 2>& scales) {
-    for (std::size_t i = 0; i < table_.files.size(); ++i)
-      table_.files[i].scale = scales[group(inputs_.sources()[i].format)];
-    return std::move(table_);
   }
 
   static std::unique_ptr<io::AttributeReader> open(const io::SourceInfo& source) {
@@ -108,6 +93,12 @@ class IntensityPasses {
   void store_bytes(const IntensityScale& scale, const io::PointBatch& batch) {
     std::uint8_t* const bytes = table_.of_point.data() + batch.first_id;
     for (std::size_t i = 0; i < batch.count; ++i) bytes[i] = scale.byte_of(values_[i]);
+  }
+
+  void store_bytes(const IntensityScale& scale, const PageVector<std::uint16_t>& words) {
+    std::array<std::uint8_t, kWords> byte_of;
+    for (std::size_t word = 0; word < kWords; ++word) byte_of[word] = scale.byte_of(static_cast<double>(word));
+    std::ranges::transform(words, table_.of_point.begin(), [&](std::uint16_t word) { return byte_of[word]; });
   }
 
   io::InputSet& inputs_;
