@@ -154,11 +154,13 @@ class SparePages {
       unmap(stretch);
     }
   }
-  /// At least so much, the smallest stretches first: they are the least likely to fit anything.
+  /// At least so much where more than kSlack is spare, the smallest stretches first: they are the least likely to fit
+  /// anything.
   void drop_least(std::size_t size) noexcept {
-    for (std::size_t gone = 0; gone < size && !spare_.empty();) {
+    for (std::size_t gone = 0, left = sum(); gone < size && left > kSlack;) {
       const auto least = std::ranges::min_element(spare_, {}, &Stretch::size_bytes);
       gone += least->size_bytes;
+      left -= least->size_bytes;
       unmap(*least);
       spare_.erase(least);
     }
@@ -196,6 +198,8 @@ class SparePages {
   /// Each page that is moved may be a mapping of its own, of which a process has some ten thousands.
   static constexpr std::size_t kMostGathered = 2048;
 
+  /// Arrays of a few hundred kilobytes come and go all the time: what is left between them is worth keeping.
+  static constexpr std::size_t kSlack = 2 * kLargePage;
   static constexpr std::size_t kMost = 256;
   static std::vector<Stretch> room() {
     std::vector<Stretch> spare;

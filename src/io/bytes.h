@@ -45,6 +45,22 @@ void store(std::byte* at, T value) {
   std::memcpy(at, &bits, sizeof bits);
 }
 
+/// As memcpy(), without a call: for a few dozen bytes, the number of which is known at run time only.
+inline void copy_short(std::byte* to, const std::byte* from, std::size_t size_bytes) {
+  const auto ends = [&]<std::size_t kSize> {  // They overlap.
+    std::memcpy(to, from, kSize);
+    std::memcpy(to + size_bytes - kSize, from + size_bytes - kSize, kSize);
+  };
+  while (size_bytes > 32) {
+    std::memcpy(to, from, 16);
+    to += 16, from += 16, size_bytes -= 16;
+  }
+  if (size_bytes >= 16) return ends.template operator()<16>();
+  if (size_bytes >= 8) return ends.template operator()<8>();
+  if (size_bytes >= 4) return ends.template operator()<4>();
+  for (std::size_t i = 0; i < size_bytes; ++i) to[i] = from[i];
+}
+
 /// Text of a fixed field: up to its first NUL, or all of it.
 inline std::string_view field_text(const std::byte* at, std::size_t size_bytes) {
   const std::string_view whole(reinterpret_cast<const char*>(at), size_bytes);

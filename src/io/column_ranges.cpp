@@ -31,22 +31,26 @@ ColumnRanges::ColumnRanges(const std::vector<ColumnSpec>& columns) {
     ranges_.push_back({column.type, offset});
     offset += size_bytes(column.type);
   }
-  last_.reserve(offset);
-  row_bytes_ = offset;
+  last_.resize(offset);
+}
+
+void ColumnRanges::add(std::span<const std::byte> rows) {
+  const std::size_t row_bytes = last_.size();
+  for (std::size_t at = 0; at < rows.size(); at += row_bytes) {
+    const std::byte* const row = rows.data() + at;
+    if (any_ && same_row(row)) continue;
+    std::memcpy(last_.data(), row, row_bytes);
+    any_ = true;
+    add_row(row);
+  }
 }
 
 bool ColumnRanges::same_row(const std::byte* row) const {
-  std::uint32_t label;
-  if (row_bytes_ != sizeof(label)) return std::memcmp(row, last_.data(), row_bytes_) == 0;
-  std::uint32_t last;  // A row of one label, without a call.
-  std::memcpy(&label, row, sizeof(label));
-  std::memcpy(&last, last_.data(), sizeof(last));
-  return label == last;
+  if (last_.size() != sizeof(std::uint32_t)) return std::memcmp(row, last_.data(), last_.size()) == 0;
+  return load<std::uint32_t>(row) == load<std::uint32_t>(last_.data());  // One label, without a call.
 }
 
-void ColumnRanges::add(const std::byte* row) {
-  if (!last_.empty() && same_row(row)) return;
-  last_.assign(row, row + row_bytes_);
+void ColumnRanges::add_row(const std::byte* row) {
   for (Range& range : ranges_) {
     const double value = load_scalar(scalar_type(range.type), row + range.offset);
     if (std::isnan(value)) continue;

@@ -14,14 +14,15 @@ namespace arris::io {
 class ColumnRanges {
  public:
   explicit ColumnRanges(const std::vector<ColumnSpec>& columns);
-  /// One row of the columns. NaN has no place in a range.
-  void add(const std::byte* row);
+  /// Rows of the columns, one after the other. NaN has no place in a range.
+  void add(std::span<const std::byte> rows);
   /// Completes the entries of the columns, which were written at `offset` in this order. Nothing where no row was
   /// added.
   void patch_entries(OutputFile& output, std::uint64_t offset) const;
 
  private:
   bool same_row(const std::byte* row) const;
+  void add_row(const std::byte* row);
   struct Range {
     ColumnType type;
     std::size_t offset;  ///< In the row.
@@ -30,8 +31,8 @@ class ColumnRanges {
     bool any = false;
   };
   std::vector<Range> ranges_;
-  std::size_t row_bytes_ = 0;
   std::vector<std::byte> last_;  ///< The row before: labels of neighbours are mostly the same.
+  bool any_ = false;             ///< There was one.
 };
 
 }  // namespace arris::io

@@ -82,7 +82,7 @@ class ConvertedLasWriter final : public KeptPointWriter {
         totals_.add(record_.data(), is_extended_format(conversion_->point_format()) ? 15 : 7);
         output_.write(std::span<const std::byte>(record_));
         output_.write(std::span(row, row_bytes_));
-        ranges_.add(row);
+        ranges_.add({row, row_bytes_});
       } else {
         ++left_out_;
       }

@@ -61,7 +61,7 @@ class FreshLasWriter final : public FreshCloudWriter {
       for (const FreshPoint& point : part) {
         encode(point, record);
         totals_.add(record, 15);
-        if (label_) ranges_.add(record + label_at_);
+        if (label_) ranges_.add({record + label_at_, stride_ - label_at_});
         record += stride_;
       }
       output_.write(std::span<const std::byte>(block_).first(part.size() * stride_));

@@ -57,14 +57,10 @@ class LasKeptWriter final : public KeptPointWriter {
           fmt::format("{}: LAS 1.{} cannot count more than 4 294 967 295 points; write PLY, or split the inputs",
                       printable(output_.path().string(), 1000), las_.header.minor));
     }
-    const std::byte* row = rows.data();
-    for (const std::uint32_t point : kept) {
-      const auto record = record_of(batch, point);
-      totals_.add(record.data(), return_mask_);
-      output_.write(record);
-      output_.write(std::span(row, row_bytes_));
-      ranges_.add(row);
-      row += row_bytes_;
+    const std::size_t at_once = OutputFile::kMostExtension / (las_.header.record_bytes + row_bytes_);
+    for (std::size_t begin = 0; begin < kept.size(); begin += at_once) {
+      const std::size_t count = std::min(at_once, kept.size() - begin);
+      append_some(batch, kept.subspan(begin, count), rows.data() + begin * row_bytes_);
     }
   }
 
@@ -79,6 +75,23 @@ class LasKeptWriter final : public KeptPointWriter {
   const std::vector<std::string>& warnings() const override { return warnings_; }
 
  private:
+  /// @param kept  as many as one extension of the output has room for.
+  void append_some(const PointBatch& batch, std::span<const std::uint32_t> kept, const std::byte* row) {
+    const std::size_t record_bytes = las_.header.record_bytes, row_bytes = row_bytes_;
+    ranges_.add({row, kept.size() * row_bytes});
+    LasTotals totals = totals_;  // Here what is written does not keep it out of registers.
+    std::byte* to = output_.extend(kept.size() * (record_bytes + row_bytes_)).data();
+    for (const std::uint32_t point : kept) {
+      const auto record = record_of(batch, point);
+      assert(record.size() == record_bytes);
+      totals.add(record.data(), return_mask_);
+      copy_short(to, record.data(), record_bytes);
+      copy_short(to + record_bytes, row, row_bytes);
+      to += record_bytes + row_bytes;
+      row += row_bytes;
+    }
+    totals_ = totals;
+  }
   void write_front() {
     header_ = las_.header.raw;
     output_.write(std::span<const std::byte>(header_));

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
+constexpr std::size_t kBufferBytes = OutputFile::kMostExtension;
 
 [[noreturn]] void fail(const fs::path& path, std::string_view what, int error, std::uint64_t size_bytes) {
   const char* advice = error == ENOSPC || error == EDQUOT ? "; free some space or choose another folder"
@@ -93,15 +93,23 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::write(std::span<const std::byte> bytes) {
-  if (bytes.size() > kBufferBytes - buffered_) flush();
-  if (bytes.size() > kBufferBytes) {
-    write_all(descriptor_, partial_path_, bytes, size_bytes_);
-  } else {
-    if (!bytes.empty()) std::memcpy(buffer_.get() + buffered_, bytes.data(), bytes.size());
-    buffered_ += bytes.size();
+  if (bytes.empty()) return;
+  if (bytes.size() <= kBufferBytes) {
+    std::memcpy(extend(bytes.size()).data(), bytes.data(), bytes.size());
+    return;
   }
+  flush();
+  write_all(descriptor_, partial_path_, bytes, size_bytes_);
   size_bytes_ += bytes.size();
-  writeback_.written(descriptor_, size_bytes_ - buffered_);
+  writeback_.written(descriptor_, size_bytes_);
+}
+
+std::span<std::byte> OutputFile::extend(std::size_t size_bytes) {
+  if (size_bytes > kBufferBytes - buffered_) flush();
+  const std::span<std::byte> place(buffer_.get() + buffered_, size_bytes);
+  buffered_ += size_bytes;
+  size_bytes_ += size_bytes;
+  return place;
 }
 
 void OutputFile::write(std::string_view text) {
@@ -121,6 +129,7 @@ void OutputFile::flush() {
   if (buffered_ == 0) return;
   write_all(descriptor_, partial_path_, {buffer_.get(), buffered_}, size_bytes_ - buffered_);
   buffered_ = 0;
+  writeback_.written(descriptor_, size_bytes_);
 }
 
 void OutputFile::commit() {

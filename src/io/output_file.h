@@ -23,6 +23,9 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::span<const std::byte> bytes);
+  static constexpr std::size_t kMostExtension = std::size_t{1} << 20;
+  /// Where the next so many bytes are to be put before anything else is called; at most kMostExtension.
+  std::span<std::byte> extend(std::size_t size_bytes);
   void write(std::string_view text);
   /// Overwrites bytes already written (headers whose counts become known at the end). Must lie within size_bytes().
   void patch(std::uint64_t offset, std::span<const std::byte> bytes);

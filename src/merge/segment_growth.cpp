@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "merge/group_numbers.h"
+
 namespace arris::merge {
 
 SegmentGrowth::SegmentGrowth(std::uint64_t points, std::uint32_t min_points)
@@ -56,27 +58,20 @@ void SegmentGrowth::take_offers() {
 
 /// Components become segments, in the order of the smallest ids.
 void SegmentGrowth::number() {
-  std::vector<std::uint64_t> points(sizes_.size());
-  for (std::uint32_t c = 0; c < sizes_.size(); ++c) {
+  const auto components = static_cast<std::uint32_t>(sizes_.size());
+  std::vector<std::uint64_t> points(components);
+  for (std::uint32_t c = 0; c < components; ++c) {
     const std::uint32_t root = sets_.find(c);
     points[root] += sizes_[c];
     if (root != c) discs_[root] += discs_[c];
   }
-  std::vector<std::uint32_t> segment(sizes_.size());
-  std::vector<std::uint64_t> discs;
-  for (std::uint32_t& label : labels_) {
-    if (label == 0) continue;
-    const std::uint32_t root = sets_.find(label - 1);
-    if (points[root] < min_points_) {
-      label = 0;
-      continue;
-    }
-    if (segment[root] == 0) {
-      discs.push_back(discs_[root]);
-      segment[root] = static_cast<std::uint32_t>(discs.size());
-    }
-    label = segment[root];
+  std::vector<std::uint32_t> group_of(components);
+  for (std::uint32_t c = 0; c < components; ++c) {
+    const std::uint32_t root = sets_.find(c);
+    group_of[c] = points[root] < min_points_ ? 0 : root + 1;
   }
+  std::vector<std::uint64_t> discs;
+  for (const std::uint32_t group : number_groups(group_of, components, labels_)) discs.push_back(discs_[group - 1]);
   discs_ = std::move(discs);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/pages.h"
 #include "core/process_memory.h"
 #include "core/text.h"
 #include "tiling/tile_store.h"
@@ -61,7 +62,7 @@ std::uint64_t MemoryPlan::points_within(std::uint64_t bytes, std::uint64_t most)
 
 std::uint64_t MemoryPlan::widen_bytes() const {
   const auto usable = static_cast<std::uint64_t>(kSafety * static_cast<double>(budget_bytes));
-  const std::uint64_t taken = arris::resident_bytes() + scratch_bytes + kWidenBytes;
+  const std::uint64_t taken = arris::resident_bytes() - spare_pages_bytes() + scratch_bytes + kWidenBytes;
   return std::max(tiles_bytes, usable - std::min(usable, taken));
 }
 

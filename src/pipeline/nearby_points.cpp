@@ -9,17 +9,19 @@
 
 namespace arris::pipeline {
 
-void NearbyPoints::add(tiling::SortedPoints&& points) {
-  if (points.positions.empty()) return;
-  size_ += points.positions.size();
-  Tile tile{std::move(points), {}};
-  tile.points.positions.shrink_to_fit();
-  tile.points.ids.shrink_to_fit();
-  for (std::size_t i = 0; i < tile.points.positions.size(); ++i) {
-    if (i % kBlockPoints == 0) tile.blocks.emplace_back();
-    tile.blocks.back().include(tile.points.positions[i]);
+NearbyPoints::Tile::Tile(tiling::SortedPoints&& of_tile) : points(std::move(of_tile)) {
+  points.positions.shrink_to_fit();
+  points.ids.shrink_to_fit();
+  for (std::size_t begin = 0; begin < points.positions.size(); begin += kBlockPoints) {
+    const std::size_t end = std::min(points.positions.size(), begin + kBlockPoints);
+    LatticeBox& block = blocks.emplace_back();
+    for (std::size_t i = begin; i < end; ++i) block.include(points.positions[i]);
   }
-  tiles_.push_back(std::move(tile));
+}
+
+NearbyPoints::NearbyPoints(std::vector<tiling::SortedPoints>&& tiles) : tiles_(tiles.size()) {
+  for (const tiling::SortedPoints& points : tiles) size_ += points.positions.size();
+  parallel_for_chunks(tiles.size(), 1, [&](std::size_t t, std::size_t) { tiles_[t] = Tile(std::move(tiles[t])); });
 }
 
 std::optional<TilePoints> NearbyPoints::in(const tiling::QueryRegions& regions, std::uint64_t most_points) const {

@@ -18,8 +18,9 @@ class NearbyPoints {
  public:
   static constexpr std::size_t kBytesPerPoint = 20;
 
-  /// Of one tile, in Z-order.
-  void add(tiling::SortedPoints&& points);
+  /// @param tiles  the points of each, in Z-order. Runs in parallel.
+  explicit NearbyPoints(std::vector<tiling::SortedPoints>&& tiles);
+
   std::size_t size() const { return size_; }
   /// Those in the regions, duplicates folded, with core and covered box unlimited: queries look no farther than their
   /// regions. None if there are more than most_points. Runs in parallel.
@@ -27,6 +28,8 @@ class NearbyPoints {
 
  private:
   struct Tile {
+    Tile() = default;
+    explicit Tile(tiling::SortedPoints&& of_tile);
     tiling::SortedPoints points;
     std::vector<LatticeBox> blocks;  ///< Of kBlockPoints points each.
   };

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "merge/group_numbers.h"
 #include "merge/segment_reassignment.h"
 #include "tiling/mapped_pass.h"
 
@@ -28,23 +29,15 @@ merge::SegmentMoments sum_moments(io::InputSet& inputs, const Lattice& lattice, 
 }
 
 /// Segments of min_points and more, in the order of their smallest ids.
-void number(std::uint32_t min_points, PlanarSegments& segments, merge::SegmentMoments& moments) {
-  std::vector<std::uint32_t> new_number(moments.count());
+void number(std::uint32_t min_points, PlanarSegments& segments, const merge::SegmentMoments& moments) {
+  std::vector<std::uint32_t> group_of(moments.count());
+  for (std::uint32_t segment = 1; segment <= moments.count(); ++segment)
+    group_of[segment - 1] = moments.points(segment) < min_points ? 0 : segment;
   std::vector<SegmentPlane> planes;
-  for (std::uint32_t& label : segments.labels) {
-    if (label == 0) continue;
-    if (moments.points(label) < min_points) {
-      label = 0;
-      continue;
-    }
-    std::uint32_t& number = new_number[label - 1];
-    if (number == 0) {
-      planes.push_back(segments.planes[label - 1]);
-      segments.points.push_back(moments.points(label));
-      number = static_cast<std::uint32_t>(planes.size());
-    }
-    label = number;
-    ++segments.labelled;
+  for (const std::uint32_t segment : merge::number_groups(group_of, moments.count(), segments.labels)) {
+    planes.push_back(segments.planes[segment - 1]);
+    segments.points.push_back(moments.points(segment));
+    segments.labelled += moments.points(segment);
   }
   segments.planes = std::move(planes);
 }

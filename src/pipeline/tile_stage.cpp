@@ -105,8 +105,11 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const T
   TileProgress tile_progress(progress);
   DiskKeeper disk(job, folder, store);
   // While it is built a tile takes less than it has reserved: the next analysis may have the pages of the one before.
+  // What is spare when one ends is also that of the others in flight, which they take again.
   const std::uint64_t largest = job.tiles.largest_covered_points;
-  const std::uint64_t spare_bytes = job.memory.tile_bytes(largest) - tiling::build_bytes(largest);
+  const std::uint64_t spare_bytes =
+      static_cast<std::uint64_t>(job.memory.tile_workers) * job.memory.tile_bytes(largest) -
+      tiling::build_bytes(largest);
 
   const auto analyse = [&](std::size_t tile) {
     cancel.check();
@@ -140,7 +143,7 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const T
   disk.routed();
   tile_progress.start(job.survey.points());
   workers.wait();
-  release_free_memory();
+  trim_heap();  // Who looks farther takes the spare pages.
   stage.isolated = isolated;
   stage.peak_temp_bytes = disk.peak_bytes();
   return stage;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/pages.h"
 #include "core/parallel.h"
 #include "core/process_memory.h"
 #include "core/text.h"
@@ -165,10 +166,15 @@ void Widener::analyse(TilePoints&& points, std::span<const UnprovenQuery> querie
   for (const UnprovenQuery& query : queries) placed.push_back({index_of.at(query.id), query.reach_steps});
   const TileOutcome answered = analysis_(points, placed);
   points = {};
-  release_free_memory();
   isolated_ += answered.isolated;
   require_progress(queries, answered.unproven);
   farther_.insert(farther_.end(), answered.unproven.begin(), answered.unproven.end());
+}
+
+/// One analysis has the pages of another, up to the half of the memory that is theirs.
+void Widener::leave_for_reading(std::uint64_t bytes) const {
+  trim_heap();
+  trim_spare_pages(std::min(group_bytes_ / 2, group_bytes_ - std::min(group_bytes_, bytes)));
 }
 
 std::optional<NearbyPoints> Widener::read(std::span<const UnprovenQuery> queries, std::uint64_t most_points,
@@ -178,8 +184,10 @@ std::optional<NearbyPoints> Widener::read(std::span<const UnprovenQuery> queries
   for (std::size_t tile = 0; tile < job_.tiles.tiles.size(); ++tile) {
     if (regions.touches(job_.tiles.tiles[tile].core)) touched.push_back(tile);
   }
-  const std::uint64_t at_once = group_bytes_ / 5 * 4 / tiling::load_bytes(job_.tiles.largest_covered_points);
+  const std::uint64_t load_bytes = tiling::load_bytes(job_.tiles.largest_covered_points);
+  const std::uint64_t at_once = group_bytes_ / 5 * 4 / load_bytes;
   const auto lanes = static_cast<std::size_t>(std::clamp<std::uint64_t>(at_once, 1, loop_threads()));
+  leave_for_reading(most_points * NearbyPoints::kBytesPerPoint + lanes * load_bytes);
   std::vector<tiling::SortedPoints> loaded(touched.size());
   std::atomic<std::size_t> next{0};
   std::atomic<std::uint64_t> points{0};
@@ -192,9 +200,7 @@ std::optional<NearbyPoints> Widener::read(std::span<const UnprovenQuery> queries
     }
   });
   if (points > most_points) return std::nullopt;
-  std::optional<NearbyPoints> nearby(std::in_place);
-  for (tiling::SortedPoints& some : loaded) nearby->add(std::move(some));
-  return nearby;
+  return NearbyPoints(std::move(loaded));
 }
 
 }  // namespace arris::pipeline

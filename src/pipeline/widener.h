@@ -38,6 +38,7 @@ class Widener {
     kPoints,  ///< Those in reach, no others.
     kLeaves,  ///< And what lies with them in a leaf of a tile file: to look at each costs more than to keep it.
   };
+  void leave_for_reading(std::uint64_t bytes) const;
   /// The points in reach of the queries, or nothing if there are more than that.
   std::optional<NearbyPoints> read(std::span<const UnprovenQuery> queries, std::uint64_t most_points, Detail detail);
 

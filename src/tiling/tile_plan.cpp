@@ -71,7 +71,13 @@ class Planner {
   /// No midpoint cuts a cell: a box whose occupied part is as long as its longest cell holds no other.
   void split(std::span<PlanCell> cells, LatticeBox box) {
     const LatticeBox occupied = occupied_part(cells);
-    PlannedTile tile = make_tile(cells, occupied);
+    std::uint64_t core_points = 0;
+    for (const PlanCell& cell : cells) core_points += cell.count;
+    if (core_points > request_.max_points && cells.size() > 1) {  // Whatever its halo.
+      split_longest(cells, box, occupied);
+      return;
+    }
+    PlannedTile tile = make_tile(cells, occupied, core_points);
     if (!request_.whole_halo && tile.core_points <= request_.max_points / kHaloDominates) narrow_halo(tile);
     const bool core_fits = request_.max_core_points == 0 || tile.core_points <= request_.max_core_points;
     const bool hopeless = request_.whole_halo && tile.core_points <= request_.max_points / kHaloIsTooLarge;
@@ -79,6 +85,10 @@ class Planner {
       plan_.tiles.push_back(tile);
       return;
     }
+    split_longest(cells, box, occupied);
+  }
+
+  void split_longest(std::span<PlanCell> cells, LatticeBox box, const LatticeBox& occupied) {
     int axis = 0;
     for (int other = 1; other < 3; ++other) {
       if (occupied.max[other] - occupied.min[other] > occupied.max[axis] - occupied.min[axis]) axis = other;
@@ -117,10 +127,10 @@ class Planner {
     split(cells.subspan(lower_count), upper);
   }
 
-  PlannedTile make_tile(std::span<const PlanCell> cells, const LatticeBox& occupied) {
+  PlannedTile make_tile(std::span<const PlanCell> cells, const LatticeBox& occupied, std::uint64_t core_points) {
     PlannedTile tile;
     tile.core = occupied;
-    for (const PlanCell& cell : cells) tile.core_points += cell.count;
+    tile.core_points = core_points;
     tile.covered = tile.core.expanded(halo_steps(cells, tile.core_points));
     tile.covered_points = counts_.touching(tile.covered);
     return tile;

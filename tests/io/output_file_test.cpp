@@ -37,6 +37,24 @@ TEST(OutputFile, Commit_MakesExactBytesAppear) {
   EXPECT_EQ(entries(folder.path()), 1U);
 }
 
+TEST(OutputFile, Extensions_AreWrittenInTurn) {
+  const TempFolder folder;
+  std::string expected;
+  io::OutputFile file(folder / "a", false);
+  for (const std::size_t size : {std::size_t{5}, io::OutputFile::kMostExtension, std::size_t{0},
+                                 io::OutputFile::kMostExtension - 3, std::size_t{4}}) {
+    const std::string part(size, static_cast<char>('a' + size % 26));
+    const std::span<std::byte> place = file.extend(size);
+    ASSERT_EQ(place.size(), size);
+    std::ranges::copy(std::as_bytes(std::span(part)), place.begin());
+    file.write(std::string_view("|"));
+    expected += part + "|";
+    EXPECT_EQ(file.size_bytes(), expected.size());
+  }
+  file.commit();
+  EXPECT_EQ(file_bytes(folder / "a"), expected);
+}
+
 TEST(OutputFile, DestroyedWithoutCommit_LeavesNothing) {
   const TempFolder folder;
   {

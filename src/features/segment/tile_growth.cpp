@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "features/neighbourhood/point_tree.h"
 #include "features/segment/growing_points.h"
 #include "features/segment/intensity_smoothing.h"
@@ -84,27 +85,52 @@ class Grower {
   /// Queries whose support is not whole are none from here on.
   void settle_unproven() {
     const SupportProof proof(tree_, points_, rings());
-    const auto leave = [&](std::uint32_t slot, double reach, double most = 0.0) {
-      queries_.leave(slot);
+    for (const View& view : queries_.listed().empty() ? views_of_unproven(proof) : views_of_listed(proof)) {
+      if (view.reach == 0.0) continue;
+      queries_.leave(view.slot);
       const auto steps = [](double r) { return static_cast<std::int64_t>(std::ceil(r * (1.0 + 1e-9))) + 1; };
-      growth_.unproven.push_back({tree_.id(slot), tree_.position(slot), steps(reach), most > 0.0 ? steps(most) : 0});
-    };
-    if (queries_.listed().empty()) {
-      const SupportProof::Depth in_tile = proof.depth_in(covered_);
-      for (const std::uint32_t slot : proof.unproven(queries_.are_queries(), covered_)) {
-        const double reach = proof.reach(slot, in_tile);
-        if (const auto bound = proof.bound(slot))
-          leave(slot, std::max(reach, bound->first), std::max(reach, kRoundMore * bound->most));
-        else
-          leave(slot, reach);
-      }
-    }
-    for (const auto& [slot, reach] : queries_.listed()) {
-      const double needed = proof.reach(slot, proof.depth_around(slot, static_cast<double>(reach)));
-      if (needed > 0.0) leave(slot, needed);
+      growth_.unproven.push_back({tree_.id(view.slot), tree_.position(view.slot), steps(view.reach),
+                                  view.most > 0.0 ? steps(view.most) : 0});
     }
     std::sort(growth_.unproven.begin(), growth_.unproven.end(),
               [](const UnprovenQuery& a, const UnprovenQuery& b) { return a.id < b.id; });
+  }
+
+  /// How far a query must see, steps; 0: no farther than it does.
+  struct View {
+    std::uint32_t slot = 0;
+    double reach = 0.0;
+    double most = 0.0;  ///< No later reach is greater; 0: not known.
+  };
+
+  std::vector<View> views_of_unproven(const SupportProof& proof) const {
+    const std::vector<std::uint32_t> slots = proof.unproven(queries_.are_queries(), covered_);
+    const SupportProof::Depth in_tile = proof.depth_in(covered_);
+    std::vector<View> views(slots.size());
+    for_each_of(slots.size(), [&](std::size_t i) {
+      views[i] = {slots[i], proof.reach(slots[i], in_tile), 0.0};
+      if (const auto bound = proof.bound(slots[i])) {
+        views[i].reach = std::max(views[i].reach, bound->first);
+        views[i].most = std::max(views[i].reach, kRoundMore * bound->most);
+      }
+    });
+    return views;
+  }
+  std::vector<View> views_of_listed(const SupportProof& proof) const {
+    const auto listed = queries_.listed();
+    std::vector<View> views(listed.size());
+    for_each_of(listed.size(), [&](std::size_t i) {
+      const auto [slot, reach] = listed[i];
+      views[i] = {slot, proof.reach(slot, proof.depth_around(slot, static_cast<double>(reach))), 0.0};
+    });
+    return views;
+  }
+  template <class Use>
+  static void for_each_of(std::size_t count, const Use& use) {
+    constexpr std::size_t kGrain = 64;
+    parallel_for_chunks(count, kGrain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) use(i);
+    });
   }
 
   void write_frontier(const TileComponents& components, const FrontierSink& sink) const {

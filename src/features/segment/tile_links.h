@@ -13,7 +13,8 @@
 
 namespace arris {
 
-/// The links of the queries, as sets of slots; tile_growth.h tells what a link is. Six bytes per slot.
+/// The links of the queries, as sets of slots, found in parallel; tile_growth.h tells what a link is. Six bytes per
+/// slot.
 class TileLinks {
  public:
   /// A point that cannot grow and would join the set of one that does.
@@ -37,7 +38,13 @@ class TileLinks {
   std::uint64_t isolated() const { return isolated_; }  ///< Queries without a normal.
 
  private:
-  void link(std::uint32_t slot);
+  /// What a stretch of slots yields besides the sets.
+  struct Part {
+    std::vector<Offer> offers;
+    std::uint64_t isolated = 0;
+  };
+  void link(std::uint32_t slot, Part& part);
+  void number(std::uint32_t slot);
   void join(std::uint32_t a, std::uint32_t b);
   bool all_below(std::uint32_t root, const NeighbourList& neighbours) const;
   bool alike(std::uint32_t slot, std::uint32_t neighbour) const {
