@@ -19,6 +19,12 @@ class DisjointSets {
   explicit DisjointSets(std::size_t count = 0) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
 
   std::size_t size() const { return parent_.size(); }
+  /// Adds elements, each on its own; while no other thread does anything.
+  void grow(std::size_t count) {
+    const std::size_t old = parent_.size();
+    parent_.resize(old + count);
+    std::iota(parent_.begin() + static_cast<std::ptrdiff_t>(old), parent_.end(), static_cast<std::uint32_t>(old));
+  }
   /// An element of the same set. If it is the representative nothing needs to be looked for.
   std::uint32_t parent(std::uint32_t element) const {
     return std::atomic_ref(const_cast<std::uint32_t&>(parent_[element])).load(std::memory_order_relaxed);

@@ -1,6 +1,7 @@
 #include "merge/segment_growth.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "merge/group_numbers.h"
 
@@ -16,31 +17,47 @@ void SegmentGrowth::add(const TileGrowth& tile) {
     base = static_cast<std::uint32_t>(sizes_.size());
     sizes_.insert(sizes_.end(), tile.sizes.begin(), tile.sizes.end());
     discs_.insert(discs_.end(), tile.discs.begin(), tile.discs.end());
-    for (TileGrowth::Touched member : tile.touched) {
-      member.component += base;
-      touched_.push_back(member);
-    }
-    for (TileGrowth::Offer offer : tile.offers) {
-      offer.component += base;
-      offers_.push_back(offer);
-    }
+    sets_.grow(tile.sizes.size());
   }
-  // Every point is a query of one tile only: no other thread writes here.
-  for (const TileGrowth::Member& member : tile.members) labels_[member.id] = base + member.component;
+  // Every point is a query of one tile only: no other thread writes here. Those that read see a label or none yet.
+  for (const TileGrowth::Member& member : tile.members)
+    std::atomic_ref(labels_[member.id]).store(base + member.component, std::memory_order_relaxed);
+  const std::lock_guard lock(mutex_);
+  for (TileGrowth::Touched link : tile.touched) {
+    link.component += base;
+    if (!join(link)) wait_for(link);
+  }
+  for (TileGrowth::Offer offer : tile.offers) {
+    offer.component += base;
+    offers_.push_back(offer);
+  }
 }
 
-void SegmentGrowth::join_touched() {
-  for (const TileGrowth::Touched& link : touched_) {
-    std::uint32_t& label = labels_[link.id];
-    if (label == 0) {  // It had no link of its own.
-      label = link.component;
-      ++sizes_[link.component - 1];
-      discs_[link.component - 1] += link.disc;
-    } else {
-      sets_.join(label - 1, link.component - 1);
-    }
+/// False if the point has no label yet.
+bool SegmentGrowth::join(const TileGrowth::Touched& link) {
+  const std::uint32_t label = std::atomic_ref(labels_[link.id]).load(std::memory_order_relaxed);
+  if (label != 0) sets_.join(label - 1, link.component - 1);
+  return label != 0;
+}
+
+void SegmentGrowth::wait_for(const TileGrowth::Touched& link) {
+  constexpr std::size_t kWorthALook = 1 << 16;
+  if (waiting_.size() >= std::max(kWorthALook, most_waiting_)) {
+    std::erase_if(waiting_, [&](const TileGrowth::Touched& waiting) { return join(waiting); });
+    most_waiting_ = 2 * waiting_.size();
   }
-  touched_ = {};
+  waiting_.push_back(link);
+}
+
+/// Points that have no link of their own are of the component that touches them.
+void SegmentGrowth::add_touched() {
+  for (const TileGrowth::Touched& link : waiting_) {
+    if (join(link)) continue;
+    labels_[link.id] = link.component;
+    ++sizes_[link.component - 1];
+    discs_[link.component - 1] += link.disc;
+  }
+  waiting_ = {};
 }
 
 void SegmentGrowth::take_offers() {
@@ -76,8 +93,7 @@ void SegmentGrowth::number() {
 }
 
 GrownSegments SegmentGrowth::finish() {
-  sets_ = DisjointSets(sizes_.size());
-  join_touched();
+  add_touched();
   take_offers();
   number();
   return {std::move(labels_), std::move(discs_)};

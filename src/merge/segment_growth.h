@@ -20,7 +20,8 @@ struct GrownSegments {
 };
 
 /// Takes the tiles' results in any order; what finish() gives does not depend on it. Memory: 4 bytes per point of the
-/// scan; 16 per component; 16 per link across tiles, 32 per offer.
+/// scan; 16 per component; 16 per link to a point whose tile has not come yet, or that has no link of its own; 32 per
+/// offer.
 class SegmentGrowth {
  public:
   /// @param points  ids are in [0, points), points < TileGrowth::kNoId.
@@ -33,7 +34,9 @@ class SegmentGrowth {
   GrownSegments finish();
 
  private:
-  void join_touched();
+  bool join(const TileGrowth::Touched& link);
+  void wait_for(const TileGrowth::Touched& link);
+  void add_touched();
   void take_offers();
   void number();
 
@@ -42,9 +45,10 @@ class SegmentGrowth {
   PointLabels labels_;  ///< Components, then segments.
   std::vector<std::uint32_t> sizes_;
   std::vector<std::uint64_t> discs_;
-  std::vector<TileGrowth::Touched> touched_;
+  std::vector<TileGrowth::Touched> waiting_;  ///< Links to points without a label.
+  std::size_t most_waiting_ = 0;              ///< With more, it is worth looking for those that have got one.
   std::vector<TileGrowth::Offer> offers_;
-  DisjointSets sets_;
+  DisjointSets sets_;  ///< Of components.
 };
 
 }  // namespace arris::merge

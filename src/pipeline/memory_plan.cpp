@@ -17,7 +17,7 @@ constexpr std::uint64_t kMiB = 1024 * 1024;
 constexpr std::uint64_t kLeastSpoolBytes = 4 * kMiB;
 /// The survey's counts (bounded by their number of leaves), the read buffers and batches of one input, one writer, and
 /// thread stacks; measured, rounded up.
-constexpr std::uint64_t kPassBytes = 48 * kMiB;
+constexpr std::uint64_t kPassBytes = 36 * kMiB;
 /// Queries, the index of their regions, blocks of tile files.
 constexpr std::uint64_t kWidenBytes = 32 * kMiB;
 /// Beyond this a larger tile saves nothing: its halo is already a few percent of its core.

@@ -12,9 +12,9 @@ struct MethodBytes {
   double per_point = 0.0;
   double per_thread = kContourBytesPerThread;
   /// Of its bound, what is likely to be resident of a tile while another one is at its peak.
-  double beside_another = 0.55;
+  double beside_another = 0.68;
   /// The same of a tile at its peak, of which the former is a share. Measured.
-  double likely_share = 0.95;
+  double likely_share = 0.94;
 };
 
 struct MemoryRequest {

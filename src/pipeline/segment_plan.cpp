@@ -16,12 +16,12 @@
 namespace arris::pipeline {
 namespace {
 
-/// The table of components and the links across tiles: scans have a component for 60 points or more, as published for
-/// 10, where points of vegetation are linked one by one.
-constexpr double kComponentBytesPerPoint = 1.0;
-constexpr double kPublishedComponentBytesPerPoint = 2.5;
+/// The table of components and the links that wait for other tiles: scans have a component for 60 points or more, as
+/// published for 10, where points of vegetation are linked one by one.
+constexpr double kComponentBytesPerPoint = 0.5;
+constexpr double kPublishedComponentBytesPerPoint = 2.0;
 /// Most of the time of a tile is the search for neighbours, when most of its bytes are there.
-constexpr double kBesideAnother = 0.75;
+constexpr double kBesideAnother = 0.85;
 
 /// What a scan of n points keeps in memory besides its tiles.
 std::uint64_t kept_bytes(std::uint64_t points, bool published) {

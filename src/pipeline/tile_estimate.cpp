@@ -1,6 +1,7 @@
 #include "pipeline/tile_estimate.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -44,14 +45,30 @@ double likely_followed_bytes(const TileJob& job, const TileNeeds& needs, double 
          static_cast<double>(job.memory.tile_workers) * kLikelyBytesPerTile;
 }
 
+/// Of the tiles that wait, those which some query may ask for. Queries that ask again reach far: the larger the cores
+/// beside that, the likelier. Measured.
+double likely_unproven_share(const TileJob& job) {
+  constexpr double kAskedOnce = 0.66, kEvenSquares = 1.2;
+  if (!job.asks_again) return kAskedOnce;
+  const auto reach = static_cast<double>(job.farthest_steps);
+  double area = 0.0;
+  for (const tiling::PlannedTile& tile : job.tiles.tiles) {
+    std::array<double, 3> side{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      side[axis] = static_cast<double>(tile.core.max[axis] - tile.core.min[axis]);
+    std::ranges::sort(side);
+    area += side[1] * side[2];
+  }
+  const double squares = area / static_cast<double>(job.tiles.tiles.size()) / (reach * reach);
+  return squares / (squares + kEvenSquares);
+}
+
 /// On disk, where tile files wait for the queries of the tiles around them. If all queries are proven a file goes when
 /// all tiles are analysed that may ask for it; if none is, all files stay. Scans lie between.
 double likely_waiting_bytes(const TileJob& job, const TileNeeds& needs, double points, double stored) {
-  constexpr double kSpoolBytes = 7.0;      // Per stored point.
-  constexpr double kUnprovenShare = 0.77;  // Measured.
+  constexpr double kSpoolBytes = 7.0;  // Per stored point.
   const double all = stored * needs.stored_bytes_per_point + points * needs.likely_result_bytes_per_point +
                      static_cast<double>(job.tiles.tiles.size()) * kLikelyBytesPerTile;
-  if (job.asks_again) return all;  // Such queries may reach anywhere.
   const double of_covered = stored / (points * job.tiles.duplication);
   const auto stored_of = [&](std::size_t tile) {
     return of_covered * static_cast<double>(job.tiles.tiles[tile].covered_points);
@@ -64,7 +81,8 @@ double likely_waiting_bytes(const TileJob& job, const TileNeeds& needs, double p
     peak = std::max(peak, now);
     for (const std::size_t gone : retirement.analysed(tile, {})) now -= needs.stored_bytes_per_point * stored_of(gone);
   }
-  return kUnprovenShare * all + (1.0 - kUnprovenShare) * peak;
+  const double unproven = likely_unproven_share(job);
+  return unproven * all + (1.0 - unproven) * peak;
 }
 
 }  // namespace
@@ -83,7 +101,7 @@ double likely_tiles_bytes(const TileJob& job) {
 
 /// As against fixed_bytes and tile_bytes(), which bound it: buffers are seldom full. Measured (bench/README.md).
 double likely_peak_bytes(const TileJob& job, double tiles_bytes) {
-  constexpr double kProgramBytes = 40e6;  // All that stays where several tiles take the room of the survey in turn.
+  constexpr double kProgramBytes = 38.5e6;  // All that stays where several tiles take the room of the survey in turn.
   constexpr double kThreadBytes = 6e6;    // Of every thread but the first: what is read ahead, a heap of its own.
   constexpr double kGatherBytes =
       87e6;  // Results of a few million points, records and buffers while outputs are written.

@@ -131,10 +131,12 @@ void Widener::answer_alone(const UnprovenQuery& query) {
   std::optional<NearbyPoints> all = read(queries, job_.memory.points_within(all_bytes_), Detail::kPoints);
   if (!all) {
     const std::uint64_t among = count_around(query);
+    MemoryRequest request = job_.memory_request;
+    request.kept_bytes = 0;  // It is resident by now.
     throw BudgetError(
         fmt::format("the neighbours of point {} lie among {} points that must be seen together; run with at least "
                     "--memory {}",
-                    query.id, grouped(among), budget_text(least_budget_bytes(among, job_.memory_request))));
+                    query.id, grouped(among), budget_text(least_budget_bytes(among, request))));
   }
   std::optional<TilePoints> points = all->in(regions_of(queries), all->size());
   all.reset();
