@@ -55,6 +55,7 @@ void VoxelTileWalk::plan(std::uint64_t kept_bytes) {
   tiles.max_core_voxels = request_.tile_voxels_cap;
   tiles.halo_voxels = request_.scale.halo_voxels();
   plan_ = tiling::plan_voxel_tiles(store_.index(), tiles);
+  link_begins_.assign(plan_.tiles.size(), {});
   loaded_.reset();
   trim_heap();
   const auto tile_bytes = static_cast<std::uint64_t>(each * static_cast<double>(largest_tile_voxels()));
@@ -78,9 +79,10 @@ std::uint64_t VoxelTileWalk::largest_tile_voxels() const {
   return std::min<std::uint64_t>(plan_.largest_covered_points, store_.size());
 }
 
-LoadedTile VoxelTileWalk::load(const tiling::PlannedTile& tile, TileView view) const {
+LoadedTile VoxelTileWalk::load(std::size_t number, TileView view) {
+  const tiling::PlannedTile& tile = plan_.tiles[number];
   if (view == TileView::kFeatures || plan_.tiles.size() == 1)
-    return {tiling::load_voxel_tile(store_, tile, request_.colours), {}};
+    return {tiling::load_voxel_tile(store_, tile, request_.colours, link_begins_[number]), {}};
   tiling::PlannedTile core = tile;
   core.covered = tile.core;
   return {tiling::load_voxels(store_, core, false), {}};
@@ -96,7 +98,7 @@ void VoxelTileWalk::for_each(TileView view, const std::function<void(const Loade
   const bool several = plan_.tiles.size() > 1;
   const bool first_normals = several && view == TileView::kFeatures && !normals_known_;
   if (first_normals) normals_.emplace(request_.folder / fmt::format("normals-{}", request_.scale.voxel_steps));
-  for (const tiling::PlannedTile& tile : plan_.tiles) {
+  for (std::size_t tile = 0; tile < plan_.tiles.size(); ++tile) {
     cancel_.check();
     if (several || !loaded_) {
       drop();
@@ -104,7 +106,7 @@ void VoxelTileWalk::for_each(TileView view, const std::function<void(const Loade
     }
     if (view == TileView::kFeatures && loaded_->features.normals.empty()) describe(*loaded_);
     use(*loaded_);
-    progress_.advance(tile.core_points);
+    progress_.advance(plan_.tiles[tile].core_points);
   }
   if (several) {
     drop();

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "core/cancel.h"
 #include "core/progress.h"
@@ -12,6 +13,7 @@
 #include "features/supervoxel/voxel_features.h"
 #include "tiling/normal_file.h"
 #include "tiling/tile_plan.h"
+#include "tiling/voxel_neighbours.h"
 #include "tiling/voxel_store.h"
 
 namespace arris::pipeline {
@@ -72,7 +74,7 @@ class VoxelTileWalk {
  private:
   /// Throws BudgetError if so much does not fit.
   void require(std::uint64_t bytes) const;
-  LoadedTile load(const tiling::PlannedTile& tile, TileView view) const;
+  LoadedTile load(std::size_t tile, TileView view);
   void describe(LoadedTile& tile);
 
   const tiling::VoxelStore& store_;
@@ -80,6 +82,7 @@ class VoxelTileWalk {
   ProgressSink& progress_;
   const CancelToken& cancel_;
   tiling::TilePlan plan_;
+  std::vector<tiling::LinkBegins> link_begins_;  ///< Per tile; empty until it is linked.
   std::optional<LoadedTile> loaded_;
   std::optional<tiling::NormalFile> normals_;  ///< While it is written, or complete.
   bool normals_known_ = false;

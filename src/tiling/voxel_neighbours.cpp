@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "tiling/voxel_cube.h"
@@ -21,19 +22,34 @@ void for_each_voxel(const VoxelIndex& index, VoxelCube<kRanks>& cube, std::size_
   }
 }
 
-/// How many neighbours the voxels of some blocks have, in counts[rank].
-void count_neighbours(const VoxelIndex& index, std::size_t begin, std::size_t end, std::uint32_t* counts) {
+/// How many neighbours the voxels of some blocks have together.
+std::uint32_t count_neighbours(const VoxelIndex& index, std::size_t begin, std::size_t end) {
   VoxelCube<false> cube(index);
-  std::uint32_t* count = counts + index.block(begin).first_rank;
-  for_each_voxel(index, cube, begin, end, [&](int, std::uint32_t around) { *count++ = VoxelIndex::ones(around); });
+  std::uint32_t count = 0;
+  for_each_voxel(index, cube, begin, end, [&](int, std::uint32_t around) { count += VoxelIndex::ones(around); });
+  return count;
 }
 
-/// Those neighbours, from `list` on.
-void list_neighbours(const VoxelIndex& index, std::size_t begin, std::size_t end, std::uint32_t* list) {
+/// Those neighbours, from `first` of the list on, and where those of each voxel end.
+void list_neighbours(const VoxelIndex& index, std::size_t begin, std::size_t end, std::uint32_t first,
+                     VoxelTile& tile) {
   VoxelCube<true> cube(index);
+  std::uint32_t* neighbour = tile.neighbours.data() + first;
+  std::uint32_t* ends = tile.neighbour_begin.data() + index.block(begin).first_rank + 1;
   for_each_voxel(index, cube, begin, end, [&](int cell, std::uint32_t around) {
-    cube.for_each_neighbour(cell, around, [&](std::uint32_t rank) { *list++ = rank; });
+    cube.for_each_neighbour(cell, around, [&](std::uint32_t rank) { *neighbour++ = rank; });
+    *ends++ = first += VoxelIndex::ones(around);
   });
+}
+
+/// Known before neighbours are listed: nothing is moved then, and no more memory is taken than they fill.
+LinkBegins link_begins(const VoxelIndex& index) {
+  LinkBegins begins((index.blocks() + kGrain - 1) / kGrain + 1, 0);
+  parallel_for_chunks(index.blocks(), kGrain, [&](std::size_t begin, std::size_t end) {
+    begins[begin / kGrain + 1] = count_neighbours(index, begin, end);
+  });
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  return begins;
 }
 
 }  // namespace
@@ -52,17 +68,13 @@ void for_each_neighbourhood(
   });
 }
 
-void link_neighbours(VoxelTile& tile, const VoxelIndex& index) {
+void link_neighbours(VoxelTile& tile, const VoxelIndex& index, LinkBegins& begins) {
+  if (begins.empty()) begins = link_begins(index);
   tile.neighbour_begin.resize(tile.size() + 1);
   tile.neighbour_begin[0] = 0;
+  tile.neighbours.resize(begins.back());
   parallel_for_chunks(index.blocks(), kGrain, [&](std::size_t begin, std::size_t end) {
-    count_neighbours(index, begin, end, tile.neighbour_begin.data() + 1);
-  });
-  // Known before they are listed: nothing is moved, and no more memory is taken than they fill.
-  for (std::size_t v = 0; v < tile.size(); ++v) tile.neighbour_begin[v + 1] += tile.neighbour_begin[v];
-  tile.neighbours.resize(tile.neighbour_begin.back());
-  parallel_for_chunks(index.blocks(), kGrain, [&](std::size_t begin, std::size_t end) {
-    list_neighbours(index, begin, end, tile.neighbours.data() + tile.neighbour_begin[index.block(begin).first_rank]);
+    list_neighbours(index, begin, end, begins[begin / kGrain], tile);
   });
 }
 

@@ -8,7 +8,6 @@
 
 #include "core/parallel.h"
 #include "tiling/voxel_file.h"
-#include "tiling/voxel_neighbours.h"
 #include "tiling/voxel_selection.h"
 
 namespace arris::tiling {
@@ -155,13 +154,13 @@ VoxelTile load_voxels(const VoxelStore& store, const PlannedTile& planned, bool 
   return load(store, planned, select_blocks(store.index(), planned.covered), colours);
 }
 
-VoxelTile load_voxel_tile(const VoxelStore& store, const PlannedTile& planned, bool colours) {
+VoxelTile load_voxel_tile(const VoxelStore& store, const PlannedTile& planned, bool colours, LinkBegins& begins) {
   const std::vector<BlockRange> blocks = select_blocks(store.index(), planned.covered);
   VoxelTile tile = load(store, planned, blocks, colours);
   if (tile.size() == store.size()) {
-    link_neighbours(tile, store.index());
+    link_neighbours(tile, store.index(), begins);
   } else {
-    link_neighbours(tile, store.index().selection(blocks));
+    link_neighbours(tile, store.index().selection(blocks), begins);
   }
   return tile;
 }

@@ -6,6 +6,7 @@
 
 #include "core/voxel_tile.h"
 #include "tiling/tile_plan.h"
+#include "tiling/voxel_neighbours.h"
 #include "tiling/voxel_store.h"
 
 namespace arris::tiling {
@@ -31,6 +32,7 @@ TilePlan plan_voxel_tiles(const VoxelIndex& index, const VoxelPlanRequest& reque
 /// Reads in parallel. Memory: 29 bytes per voxel, 35 with colours. Throws IoError.
 VoxelTile load_voxels(const VoxelStore& store, const PlannedTile& tile, bool colours);
 /// The same with their neighbours inside the box. Links in parallel. Memory: 4 bytes more, and 4 per neighbour.
-VoxelTile load_voxel_tile(const VoxelStore& store, const PlannedTile& tile, bool colours);
+/// @param begins  of this tile: see link_neighbours().
+VoxelTile load_voxel_tile(const VoxelStore& store, const PlannedTile& tile, bool colours, LinkBegins& begins);
 
 }  // namespace arris::tiling

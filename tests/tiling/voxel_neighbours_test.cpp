@@ -27,7 +27,8 @@ VoxelTile linked_tile(std::vector<LatticePoint> keys) {
   index.finish();
   VoxelTile tile(VoxelGrid(1));
   tile.keys.assign(keys.begin(), keys.end());
-  link_neighbours(tile, index);
+  LinkBegins begins;
+  link_neighbours(tile, index, begins);
   return tile;
 }
 

@@ -144,8 +144,11 @@ RC_GTEST_PROP(VoxelTiles, AnyTile_LoadsWhatItsBoxHoldsWithTheNeighboursInside, (
   const auto cap = *rc::gen::inRange<std::uint64_t>(1, all.size() + 2).as("max core voxels");
   const TilePlan plan = plan_voxel_tiles(store.index(), {1'000'000, cap, *rc::gen::inRange(0, 12).as("halo")});
   const auto colours = *rc::gen::arbitrary<bool>().as("colours");
-  for (const PlannedTile& planned : plan.tiles)
-    expect_tile(load_voxel_tile(store, planned, colours), all, planned, side, colours);
+  for (const PlannedTile& planned : plan.tiles) {
+    LinkBegins begins;
+    expect_tile(load_voxel_tile(store, planned, colours, begins), all, planned, side, colours);
+    expect_tile(load_voxel_tile(store, planned, colours, begins), all, planned, side, colours);  // Without counting.
+  }
 }
 
 TEST(VoxelTiles, PositionsBeyond32BitsOfFractions_KeepTheirDifferences) {
@@ -155,7 +158,8 @@ TEST(VoxelTiles, PositionsBeyond32BitsOfFractions_KeepTheirDifferences) {
   const VoxelStore store = store_of(10, {{border - 9, -border - 9, 7}, {border + 12, -border + 12, 7}}, folder.path());
   const TilePlan plan = plan_voxel_tiles(store.index(), {10, 0, 5});
   ASSERT_EQ(plan.tiles.size(), 1U);
-  const VoxelTile tile = load_voxel_tile(store, plan.tiles[0], false);
+  LinkBegins begins;
+  const VoxelTile tile = load_voxel_tile(store, plan.tiles[0], false, begins);
   ASSERT_EQ(tile.size(), 2U);
   const std::size_t left = tile.keys[0].x < tile.keys[1].x ? 0 : 1;
   for (const std::size_t axis : {0U, 1U}) {
