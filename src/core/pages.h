@@ -14,7 +14,8 @@ constexpr std::size_t kLeastPagesBytes = std::size_t{128} << 10;
 /// At least kLeastPagesBytes, not initialised: what was returned before, or straight from the system, which makes pages
 /// when they are written to, large ones where it has them: blocks of less than two share one, the rest of which is
 /// spare. Where nothing that was returned is long enough large pages from several places are put under one address, as
-/// far as they go, so that hardly more (4 MiB) is resident than at some time was in use. Thread-safe. Throws std::bad_alloc.
+/// far as they go, so that hardly more (4 MiB) is resident than at some time was in use. Thread-safe. Throws
+/// std::bad_alloc.
 void* take_pages(std::size_t size_bytes);
 /// Keeps the pages for the next who takes some: to have the system clear them again costs more than most uses.
 /// @param size_bytes  as taken.

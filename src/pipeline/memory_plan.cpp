@@ -18,8 +18,8 @@ constexpr std::uint64_t kLeastSpoolBytes = 4 * kMiB;
 /// The survey's counts (bounded by their number of leaves), the read buffers and batches of one input, one writer, and
 /// thread stacks; measured, rounded up.
 constexpr std::uint64_t kPassBytes = 36 * kMiB;
-/// Queries, the index of their regions, blocks of tile files.
-constexpr std::uint64_t kWidenBytes = 32 * kMiB;
+/// Queries, the index of the regions of few, blocks of tile files.
+constexpr std::uint64_t kWidenBytes = 8 * kMiB;
 /// Beyond this a larger tile saves nothing: its halo is already a few percent of its core.
 constexpr std::uint64_t kLargestTilePoints = 2'000'000;
 /// On top of the least budget that is named: what is resident differs from run to run.

@@ -102,7 +102,7 @@ double likely_tiles_bytes(const TileJob& job) {
 /// As against fixed_bytes and tile_bytes(), which bound it: buffers are seldom full. Measured (bench/README.md).
 double likely_peak_bytes(const TileJob& job, double tiles_bytes) {
   constexpr double kProgramBytes = 38.5e6;  // All that stays where several tiles take the room of the survey in turn.
-  constexpr double kThreadBytes = 6e6;    // Of every thread but the first: what is read ahead, a heap of its own.
+  constexpr double kThreadBytes = 6e6;      // Of every thread but the first: what is read ahead, a heap of its own.
   constexpr double kGatherBytes =
       87e6;  // Results of a few million points, records and buffers while outputs are written.
   constexpr double kGatherPoints = 3e6;

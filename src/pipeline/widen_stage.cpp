@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -12,9 +13,9 @@
 namespace arris::pipeline {
 namespace {
 
-/// Queries whose surroundings are read together: each tile file is then read once for all of them. Bounds the memory of
-/// their regions (125 cells of 16 bytes each at most, usually shared, and links of 8: 24 MiB).
-constexpr std::size_t kGroupQueries = 8192;
+/// Queries whose surroundings are read together: each tile file is then read once for all of them. Their regions take
+/// 125 cells of 16 bytes each at most, usually shared, and links of 8, which is little beside what they look at.
+constexpr std::uint64_t kMostGroupQueries = 8192, kLeastGroupQueries = 512, kBytesPerQuery = 16 * 1024;
 
 }  // namespace
 
@@ -26,6 +27,7 @@ WidenResult run_widen_stage(const TileJob& job, const std::vector<std::uint64_t>
   if (outcome.queries == 0) return outcome;
   progress.phase("widen", outcome.queries);
   Widener widener(job, analysis, store);
+  const std::uint64_t most = std::clamp(widener.group_bytes() / kBytesPerQuery, kLeastGroupQueries, kMostGroupQueries);
   std::vector<UnprovenQuery> group, farther;
   const auto answer_group = [&] {
     cancel.check();
@@ -36,7 +38,7 @@ WidenResult run_widen_stage(const TileJob& job, const std::vector<std::uint64_t>
   };
   const auto take = [&](const UnprovenQuery& query) {
     group.push_back(query);
-    if (group.size() == kGroupQueries) answer_group();
+    if (group.size() == most) answer_group();
   };
   for (std::size_t tile = 0; tile < unproven.size(); ++tile) {
     if (unproven[tile] == 0) continue;

@@ -21,6 +21,8 @@ namespace {
 
 /// To look ahead for fewer costs more readings than it saves.
 constexpr std::size_t kLeastAheadQueries = 256;
+/// With less the same tile files are read again and again.
+constexpr std::uint64_t kLeastGroupBytes = std::uint64_t{64} << 20;
 
 tiling::QueryRegions regions_of(std::span<const UnprovenQuery> queries) {
   tiling::QueryRegions regions;
@@ -52,8 +54,9 @@ Widener::Widener(const TileJob& job, const TileAnalysis& analysis, const tiling:
       analysis_(analysis),
       store_(store),
       all_bytes_(job.memory.widen_bytes()),
-      group_bytes_(std::min(all_bytes_, static_cast<std::uint64_t>(job.memory.tile_workers) *
-                                            job.memory.tile_bytes(job.tiles.largest_covered_points))) {}
+      group_bytes_(std::min(all_bytes_,
+                            std::max(kLeastGroupBytes, static_cast<std::uint64_t>(job.memory.tile_workers) *
+                                                           job.memory.tile_bytes(job.tiles.largest_covered_points)))) {}
 
 std::vector<UnprovenQuery> Widener::answer(std::span<const UnprovenQuery> queries) {
   farther_.clear();

@@ -24,6 +24,8 @@ class Widener {
   std::vector<UnprovenQuery> answer(std::span<const UnprovenQuery> queries);
   /// So far.
   std::uint64_t isolated() const { return isolated_; }
+  /// Memory for queries that are answered together.
+  std::uint64_t group_bytes() const { return group_bytes_; }
 
  private:
   void look_around(std::span<const UnprovenQuery> queries);
@@ -46,7 +48,7 @@ class Widener {
   const TileAnalysis& analysis_;
   const tiling::TileStore& store_;
   std::uint64_t all_bytes_;    ///< There are for points and their analysis.
-  std::uint64_t group_bytes_;  ///< That groups take of them: no more than tiles did, which is what was foretold.
+  std::uint64_t group_bytes_;  ///< That groups take of them: hardly more than tiles did, which is what was foretold.
   std::uint64_t isolated_ = 0;
   /// What so many queries may come to ask for is read with what they ask for.
   std::size_t ahead_queries_ = std::numeric_limits<std::size_t>::max();

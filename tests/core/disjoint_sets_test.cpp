@@ -18,8 +18,7 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 Pairs any_pairs(std::uint32_t elements, std::size_t count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   Pairs pairs;
-  for (std::size_t i = 0; i < count; ++i)
-    pairs.emplace_back(random() % elements, random() % elements);
+  for (std::size_t i = 0; i < count; ++i) pairs.emplace_back(random() % elements, random() % elements);
   return pairs;
 }
 

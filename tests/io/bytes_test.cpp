@@ -19,9 +19,9 @@ TEST(Bytes, ShortCopies_CopySoManyAndNoMore) {
     copy_short(to.data() + 1, from.data(), size);
     EXPECT_EQ(to[0], std::byte{}) << size;
     EXPECT_TRUE(std::equal(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(size), to.begin() + 1)) << size;
-    EXPECT_TRUE(std::all_of(to.begin() + 1 + static_cast<std::ptrdiff_t>(size), to.end(),
-                            [](std::byte b) { return b == std::byte{}; }))
-        << size;
+    EXPECT_TRUE(std::all_of(to.begin() + 1 + static_cast<std::ptrdiff_t>(size), to.end(), [](std::byte b) {
+      return b == std::byte{};
+    })) << size;
   }
 }
 

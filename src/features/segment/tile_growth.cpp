@@ -89,8 +89,8 @@ class Grower {
       if (view.reach == 0.0) continue;
       queries_.leave(view.slot);
       const auto steps = [](double r) { return static_cast<std::int64_t>(std::ceil(r * (1.0 + 1e-9))) + 1; };
-      growth_.unproven.push_back({tree_.id(view.slot), tree_.position(view.slot), steps(view.reach),
-                                  view.most > 0.0 ? steps(view.most) : 0});
+      growth_.unproven.push_back(
+          {tree_.id(view.slot), tree_.position(view.slot), steps(view.reach), view.most > 0.0 ? steps(view.most) : 0});
     }
     std::sort(growth_.unproven.begin(), growth_.unproven.end(),
               [](const UnprovenQuery& a, const UnprovenQuery& b) { return a.id < b.id; });
@@ -178,8 +178,8 @@ std::uint64_t grow_proven(const TilePoints& tile, std::span<const std::uint8_t> 
 }
 
 double growth_bytes_per_point(const SegmentParameters& parameters) {
-  // Tree 27, shapes, counts, states and reaches 23, flags and intensities 9, sets and components 8; neighbours, as of points
-  // that fill space (of those on surfaces 2.2). Members take the room of the shapes.
+  // Tree 27, shapes, counts, states and reaches 23, flags and intensities 9, sets and components 8; neighbours, as of
+  // points that fill space (of those on surfaces 2.2). Members take the room of the shapes.
   constexpr double kNeighbourBytes = 2.6;
   const double k = static_cast<double>(parameters.most_neighbours());
   return 27.0 + 23.0 + 9.0 + 8.0 + kNeighbourBytes * k;

@@ -53,8 +53,8 @@ bool TileLinks::all_below(std::uint32_t root, const NeighbourList& neighbours) c
   return true;
 }
 
-/// What others link meanwhile shows in what is skipped, but neither in the sets nor in the offers: a point that does not
-/// grow is alone in its set.
+/// What others link meanwhile shows in what is skipped, but neither in the sets nor in the offers: a point that does
+/// not grow is alone in its set.
 void TileLinks::link(std::uint32_t slot, Part& part) {
   if (points_.state(slot) != ShapeState::kShaped) {
     ++part.isolated;
