@@ -139,16 +139,14 @@ VoxelEstimate estimate_voxels(const tiling::Survey& survey, const SupervoxelScal
   return estimate;
 }
 
-std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
-                                         const SupervoxelParameters& parameters, bool colours,
-                                         const VoxelMemory& memory) {
+SupervoxelBytes likely_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+                                        const SupervoxelParameters& parameters, bool colours, const VoxelMemory& memory,
+                                        std::uint64_t resident_bytes) {
   const VoxelEstimate estimate = estimate_voxels(survey, scale);
   const double table =
       std::min(table_entry_bytes(colours) * estimate.voxels, static_cast<double>(memory.table_bytes()));
-  const double counting = static_cast<double>(resident_bytes()) + table + estimate.index_bytes;
-  release_free_memory();
-  const double before = static_cast<double>(resident_bytes()) + estimate.index_bytes;
-  const auto room = static_cast<double>(memory.stage_bytes(static_cast<std::uint64_t>(before)));
+  const auto index_bytes = static_cast<std::uint64_t>(estimate.index_bytes);
+  const auto room = static_cast<double>(memory.stage_bytes(resident_bytes + index_bytes));
   const double each = bytes_per_voxel(estimate, parameters, colours);
   double kept = (sizeof(std::uint32_t) + 0.125) * estimate.voxels + cluster_bytes(parameters) * estimate.clusters;
   tiling::VoxelPlanRequest plan;
@@ -167,8 +165,18 @@ std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const Sup
         cluster_bytes(parameters) * clusters + bytes_per_voxel(all, parameters, colours) * voxels + kLoneBytes * lone;
     peak = std::max(peak, std::min(room, kept + here));
   }
-  const double growing = before + std::max(static_cast<double>(kVoxelPassBytes), peak);
-  return static_cast<std::uint64_t>(std::max(counting, growing));
+  const double growing = estimate.index_bytes + std::max(static_cast<double>(kVoxelPassBytes), peak);
+  return {static_cast<std::uint64_t>(table + estimate.index_bytes), static_cast<std::uint64_t>(growing)};
+}
+
+std::uint64_t predicted_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+                                         const SupervoxelParameters& parameters, bool colours,
+                                         const VoxelMemory& memory) {
+  const std::uint64_t while_counting = resident_bytes();
+  release_free_memory();
+  const std::uint64_t while_growing = resident_bytes();
+  const SupervoxelBytes bytes = likely_supervoxel_bytes(survey, scale, parameters, colours, memory, while_growing);
+  return std::max(while_counting + bytes.counting, while_growing + bytes.growing);
 }
 
 std::uint64_t predicted_scene_bytes(const VoxelEstimate& estimate) {

@@ -24,6 +24,16 @@ VoxelEstimate estimate_voxels(const tiling::Survey& survey, const SupervoxelScal
 /// Their voxels alone.
 double likely_voxels(const tiling::Survey& survey, const SupervoxelScale& scale);
 
+/// What comes on top of what is resident, at its peak.
+struct SupervoxelBytes {
+  std::uint64_t counting = 0;  ///< While voxels are counted.
+  std::uint64_t growing = 0;   ///< While clusters grow.
+};
+/// @param resident_bytes  before clusters grow, which tiles leave their room.
+SupervoxelBytes likely_supervoxel_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+                                        const SupervoxelParameters& parameters, bool colours, const VoxelMemory& memory,
+                                        std::uint64_t resident_bytes);
+
 /// Peak of a run that writes labels only: tiles are cut as they would be if the voxels of a cell lay
 /// in its middle. To be asked when the survey is made: what is resident then counts, what was before does not; free
 /// memory is given back, as it is before supervoxels grow.
