@@ -48,7 +48,7 @@ double likely_followed_bytes(const TileJob& job, const TileNeeds& needs, double 
 /// Of the tiles that wait, those which some query may ask for. Queries that ask again reach far: the larger the cores
 /// beside that, the likelier. Measured.
 double likely_unproven_share(const TileJob& job) {
-  constexpr double kAskedOnce = 0.66, kEvenSquares = 1.2;
+  constexpr double kAskedOnce = 0.74, kEvenSquares = 1.2;
   if (!job.asks_again) return kAskedOnce;
   const auto reach = static_cast<double>(job.farthest_steps);
   double area = 0.0;
