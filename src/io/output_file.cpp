@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -105,6 +106,7 @@ void OutputFile::write(std::span<const std::byte> bytes) {
 }
 
 std::span<std::byte> OutputFile::extend(std::size_t size_bytes) {
+  assert(size_bytes <= kMostExtension);
   if (size_bytes > kBufferBytes - buffered_) flush();
   const std::span<std::byte> place(buffer_.get() + buffered_, size_bytes);
   buffered_ += size_bytes;

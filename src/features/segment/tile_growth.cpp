@@ -86,7 +86,6 @@ class Grower {
   void settle_unproven() {
     const SupportProof proof(tree_, points_, rings());
     for (const View& view : queries_.listed().empty() ? views_of_unproven(proof) : views_of_listed(proof)) {
-      if (view.reach == 0.0) continue;
       queries_.leave(view.slot);
       const auto steps = [](double r) { return static_cast<std::int64_t>(std::ceil(r * (1.0 + 1e-9))) + 1; };
       growth_.unproven.push_back(
@@ -96,7 +95,7 @@ class Grower {
               [](const UnprovenQuery& a, const UnprovenQuery& b) { return a.id < b.id; });
   }
 
-  /// How far a query must see, steps; 0: no farther than it does.
+  /// How far a query must see that does not see enough, steps.
   struct View {
     std::uint32_t slot = 0;
     double reach = 0.0;
@@ -123,6 +122,7 @@ class Grower {
       const auto [slot, reach] = listed[i];
       views[i] = {slot, proof.reach(slot, proof.depth_around(slot, static_cast<double>(reach))), 0.0};
     });
+    std::erase_if(views, [](const View& view) { return view.reach == 0.0; });
     return views;
   }
   template <class Use>
