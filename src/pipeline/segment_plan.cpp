@@ -19,7 +19,7 @@ namespace {
 /// The table of components and the links that wait for other tiles: scans have a component for 60 points or more, as
 /// published for 10, where points of vegetation are linked one by one.
 constexpr double kComponentBytesPerPoint = 0.5;
-constexpr double kPublishedComponentBytesPerPoint = 2.0;
+constexpr double kPublishedComponentBytesPerPoint = 2.5;
 /// Most of the time of a tile is the search for neighbours, when most of its bytes are there.
 constexpr double kBesideAnother = 0.85;
 
