@@ -43,7 +43,20 @@ class LoopBodies {
   std::exception_ptr error_;
 };
 
+thread_local bool on_own_thread = false;
+
+void run_chunks(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+  for (std::size_t begin = 0; begin < count; begin += grain) body(begin, std::min(count, begin + grain));
+}
+
 }  // namespace
+
+OwnThreadLoops::OwnThreadLoops() {
+  on_own_thread = true;
+}
+OwnThreadLoops::~OwnThreadLoops() {
+  on_own_thread = false;
+}
 
 #if defined(__SANITIZE_THREAD__)
 // ThreadSanitizer cannot see the synchronisation inside of Debian's libtbb and reports races there. In its builds loops
@@ -63,6 +76,7 @@ struct ThreadLimit::Impl {
 };
 
 int loop_threads() {
+  if (on_own_thread) return 1;
   const int now = limit;
   return now > 0 ? now : 4;
 }
@@ -70,6 +84,7 @@ int loop_threads() {
 void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body) {
   grain = std::max<std::size_t>(grain, 1);
+  if (on_own_thread) return run_chunks(count, grain, body);
   std::atomic<std::size_t> next{0};
   LoopBodies bodies;
   const auto work = [&] {
@@ -108,12 +123,14 @@ struct ThreadLimit::Impl {
 };
 
 int loop_threads() {
+  if (on_own_thread) return 1;
   return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
 void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body) {
   grain = std::max<std::size_t>(grain, 1);
+  if (on_own_thread) return run_chunks(count, grain, body);
   const std::size_t chunks = count / grain + (count % grain != 0);
   LoopBodies bodies;
   const auto loop = [&] {

@@ -26,7 +26,7 @@ class ThreadLimit {
 /// Threads the machine offers.
 int hardware_threads();
 
-/// How many threads a loop may use now.
+/// How many threads a loop of the calling thread may use now.
 int loop_threads();
 
 /// Calls body(begin, end) over disjoint ranges that cover [0, count), each at most `grain` long (grain >= 1), in
@@ -36,6 +36,16 @@ int loop_threads();
 /// body begins.
 void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+/// While one is alive, loops of the thread that made it run on that thread alone: work in the background of loops that
+/// others wait for takes no place of theirs, and waits for none. They do not nest.
+class OwnThreadLoops {
+ public:
+  OwnThreadLoops();
+  ~OwnThreadLoops();
+  OwnThreadLoops(const OwnThreadLoops&) = delete;
+  OwnThreadLoops& operator=(const OwnThreadLoops&) = delete;
+};
 
 /// Runs independent tasks in the background while the caller goes on. wait() joins and rethrows the first exception.
 ///

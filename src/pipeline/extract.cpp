@@ -65,7 +65,8 @@ TileContours extract_labelled(const TilePoints& points, const JobPlan& plan, con
 /// What the method does with a tile. @param labelled  null unless the method works by supervoxels, which has no
 /// unproven queries and so is never asked about some of a tile's points.
 TileAnalysis analysis_of(const JobPlan& plan, const LabelledScene* labelled, merge::ResultSpool& results) {
-  return [&plan, &results, labelled](const TilePoints& points, std::optional<std::span<const PlacedQuery>> queries) {
+  return [&plan, &results, labelled](const TilePoints& points, std::optional<std::span<const PlacedQuery>> queries,
+                                     const std::function<void()>& let_others_begin) {
     std::vector<std::uint32_t> entries;
     if (queries) {
       for (const PlacedQuery& query : *queries) entries.push_back(query.entry);
@@ -73,6 +74,7 @@ TileAnalysis analysis_of(const JobPlan& plan, const LabelledScene* labelled, mer
     TileContours found = labelled  ? extract_labelled(points, plan, *labelled)
                          : queries ? extract_contours(points, plan.survey.lattice, plan.method, entries)
                                    : extract_contours(points, plan.survey.lattice, plan.method);
+    let_others_begin();
     results.append(std::move(found.records));
     return TileOutcome{std::move(found.unproven), found.isolated};
   };

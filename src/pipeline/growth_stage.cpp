@@ -16,13 +16,17 @@ GrowthResult grow_segments(io::InputSet& inputs, const GrowthSetup& setup, merge
                            merge::DuplicatePoints& duplicates, ProgressSink& progress, const CancelToken& cancel) {
   const TileJob& job = setup.job;
   merge::SegmentGrowth growth(inputs.points(), setup.parameters.least_component());
-  const TileAnalysis analysis = [&](const TilePoints& points,
-                                    std::optional<std::span<const PlacedQuery>> queries) -> TileOutcome {
+  const TileAnalysis analysis = [&](const TilePoints& points, std::optional<std::span<const PlacedQuery>> queries,
+                                    const std::function<void()>& let_others_begin) -> TileOutcome {
     PageVector<std::uint8_t> intensities(setup.intensities.empty() ? 0 : points.ids.size());
     for (std::size_t i = 0; i < intensities.size(); ++i) intensities[i] = setup.intensities[points.ids[i]];
     TileGrowth grown = grow_tile(
         points, intensities, job.survey.lattice, setup.parameters,
-        [&](std::span<const std::uint32_t> records) { frontier.append(records); }, queries);
+        [&](std::span<const std::uint32_t> records) {
+          let_others_begin();  // The frontier comes last.
+          frontier.append(records);
+        },
+        queries);
     growth.add(grown);
     if (!queries) duplicates.append(points);
     return {std::move(grown.unproven), grown.isolated};
@@ -47,7 +51,7 @@ GrowthResult grow_segments(io::InputSet& inputs, const GrowthSetup& setup, merge
   duplicates.for_each(
       [&](const merge::DuplicatePoint& point) { result.segments.labels[point.id] = result.segments.labels[point.of]; });
   // The room that tiles have left, so that the peak of the run, which is predicted, is theirs.
-  frontier.keep_border(result.segments.labels, std::min(job.memory.tiles_bytes, job.likely_tiles_bytes));
+  frontier.keep_border(result.segments.labels, job.room_after_tiles_bytes);
   setup.watch.lap("join");
   return result;
 }

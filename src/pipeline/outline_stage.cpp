@@ -36,11 +36,13 @@ OutlineResult outline_segments(io::InputSet& inputs, TileJob& job, const Outline
   plan(inputs, job, setup, progress, cancel);
   std::mutex mutex;  // Guards `edges`.
   std::vector<OutlineEdge> edges;
-  const TileAnalysis analysis = [&](const TilePoints& points, std::optional<std::span<const PlacedQuery>>) {
+  const TileAnalysis analysis = [&](const TilePoints& points, std::optional<std::span<const PlacedQuery>>,
+                                    const std::function<void()>& let_others_begin) {
     std::vector<std::uint32_t> labels(points.ids.size());
     for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = setup.segments.labels[points.ids[i]];
     SegmentContours found =
         analyse_segment_contours(points, labels, setup.segments.planes, job.survey.lattice, setup.parameters);
+    let_others_begin();
     results.append(std::move(found.records));
     const std::lock_guard lock(mutex);
     edges.insert(edges.end(), found.edges.begin(), found.edges.end());

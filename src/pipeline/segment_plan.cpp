@@ -22,6 +22,8 @@ constexpr double kComponentBytesPerPoint = 0.5;
 constexpr double kPublishedComponentBytesPerPoint = 2.5;
 /// Most of the time of a tile is the search for neighbours, when most of its bytes are there.
 constexpr double kBesideAnother = 0.85;
+/// Bytes of the frontier in memory for one on disk, as it is foretold. Measured.
+constexpr double kFrontierInMemory = 3.3;
 
 /// What a scan of n points keeps in memory besides its tiles.
 std::uint64_t kept_bytes(std::uint64_t points, bool published) {
@@ -46,9 +48,11 @@ TileJob plan_job(io::InputSet& inputs, tiling::Survey survey, const SegmentReque
   needs.halo = [&](double spacing) { return segment_halo(parameters, spacing); };
   needs.max_radius = (parameters.published ? 2.0 : 3.0) * parameters.reach();
   needs.asks_again = true;
+  needs.in_turn = true;
   needs.stored_bytes_per_point = 14.5;  // Most tile files wait for queries.
   needs.likely_result_bytes_per_point = frontier_bytes;
   needs.most_result_bytes_per_point = most_frontier_bytes_per_point(parameters);
+  needs.likely_later_bytes = kFrontierInMemory * frontier_bytes * static_cast<double>(job.survey.points());
   plan_tiles_of(job, needs, inputs, request, progress, cancel);
   return job;
 }

@@ -88,13 +88,16 @@ double likely_waiting_bytes(const TileJob& job, const TileNeeds& needs, double p
 }  // namespace
 
 /// Tiles are not all at their peak together. Measured.
-double likely_tiles_bytes(const TileJob& job) {
+double likely_tiles_bytes(const TileJob& job, int analyses) {
+  constexpr double kWhileBuilt = 0.36;  // Of its bound, of a tile that waits for its turn.
   const Likely likely = likely_of(job);
-  double bytes = likely.of_scratch * static_cast<double>(job.memory.scratch_bytes) + likely.buffers_bytes, share = 1.0;
+  double bytes = likely.of_scratch * static_cast<double>(job.memory.scratch_bytes) + likely.buffers_bytes;
+  int tile = 0;
   for (const double points : largest_tiles(job)) {
+    const double share = tile == 0 ? 1.0 : tile < analyses ? job.memory.method.beside_another : kWhileBuilt;
     bytes += share * job.memory.method.likely_share *
              static_cast<double>(job.memory.tile_bytes(static_cast<std::uint64_t>(points)));
-    share = job.memory.method.beside_another;
+    ++tile;
   }
   return bytes;
 }

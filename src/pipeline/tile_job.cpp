@@ -67,9 +67,12 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, io::InputSet& inputs, c
                     budget_text(least_budget_bytes(job.tiles.largest_covered_points, job.memory_request))));
   }
   if (job.tiles.tiles.size() <= 1) release_free_memory();  // What the survey has left differs from run to run.
-  const double tiles_bytes = likely_tiles_bytes(job);
-  job.likely_tiles_bytes = static_cast<std::uint64_t>(tiles_bytes);
-  job.predicted_peak_bytes = static_cast<std::uint64_t>(likely_peak_bytes(job, tiles_bytes));
+  job.analyses_at_once = needs.in_turn ? (job.memory.tile_workers + 1) / 2 : job.memory.tile_workers;
+  const double room_bytes = likely_tiles_bytes(job, job.memory.tile_workers);
+  job.room_after_tiles_bytes = std::min(job.memory.tiles_bytes, static_cast<std::uint64_t>(room_bytes));
+  const double later_bytes = needs.likely_later_bytes < room_bytes ? needs.likely_later_bytes : 0.0;  // All or nothing.
+  job.predicted_peak_bytes = static_cast<std::uint64_t>(
+      likely_peak_bytes(job, std::max(likely_tiles_bytes(job, job.analyses_at_once), later_bytes)));
   job.predicted_temp_bytes = likely_temp_bytes(job, needs);
   const auto points = static_cast<double>(job.survey.points());
   const double most_bytes = points * job.tiles.duplication * (needs.stored_bytes_per_point + kTileFileBytesPerPoint) +

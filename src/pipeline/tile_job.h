@@ -23,9 +23,12 @@ struct TileJob {
   MemoryRequest memory_request;
   MemoryPlan memory;  ///< plan_memory(memory_request).
   tiling::TilePlan tiles;
-  std::int64_t farthest_steps = 0;       ///< No query reaches farther than this; 0: halos are whole.
-  bool asks_again = false;               ///< See TileNeeds.
-  std::uint64_t likely_tiles_bytes = 0;  ///< Resident at the peak, of the tiles in flight.
+  std::int64_t farthest_steps = 0;  ///< No query reaches farther than this; 0: halos are whole.
+  bool asks_again = false;          ///< See TileNeeds.
+  int analyses_at_once = 1;         ///< Of the memory.tile_workers tiles in flight; see TileNeeds::in_turn.
+  /// Room for what comes after the tiles: resident at the peak, likely, of tiles in flight that are all analysed at
+  /// once.
+  std::uint64_t room_after_tiles_bytes = 0;
   std::uint64_t predicted_peak_bytes = 0;
   std::uint64_t predicted_temp_bytes = 0;
 };
@@ -36,6 +39,10 @@ struct TileNeeds {
   double max_radius = 0.0;
   bool whole_halo = false;
   bool asks_again = false;  ///< A query that is asked again may be unproven again, with a greater reach.
+  /// Of the tiles in flight only half are analysed at a time, each by several threads, while others are built or end
+  /// what one thread does alone. For analyses that take much memory: to touch that of as many tiles as there are
+  /// threads costs more than it saves.
+  bool in_turn = false;
   /// On disk, likely at the peak, per point of a tile: of its tile file, which waits for queries of other tiles; where
   /// halos are whole, of its spool.
   double stored_bytes_per_point = 14.0;
@@ -44,6 +51,7 @@ struct TileNeeds {
   double likely_result_bytes_per_point = 2.0;  ///< 8 to 30 for one point in ten.
   double most_result_bytes_per_point = 8.0;
   std::uint64_t further_temp_bytes = 0;  ///< On disk at the same time.
+  double likely_later_bytes = 0.0;       ///< In memory after the tiles, as far as room_after_tiles_bytes allow.
 };
 
 /// Cuts tiles for job.memory, which may lose workers. Reads the inputs again where most points lie in a few cells of
@@ -58,8 +66,9 @@ struct TileOutcome {
 };
 
 /// What is done with points; called from several threads at once. The queries are the entries listed, or, without a
-/// list, the points of points.core.
+/// list, the points of points.core. It calls `let_others_begin` when what is left to do needs one thread only.
 using TileAnalysis =
-    std::function<TileOutcome(const TilePoints& points, std::optional<std::span<const PlacedQuery>> queries)>;
+    std::function<TileOutcome(const TilePoints& points, std::optional<std::span<const PlacedQuery>> queries,
+                              const std::function<void()>& let_others_begin)>;
 
 }  // namespace arris::pipeline

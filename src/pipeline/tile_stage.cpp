@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
 
 #include "core/file_descriptor.h"
 #include "core/pages.h"
 #include "core/parallel.h"
 #include "core/process_memory.h"
+#include "pipeline/analysis_turns.h"
 #include "pipeline/run_support.h"
 #include "pipeline/tile_retirement.h"
 #include "tiling/partition.h"
@@ -111,15 +113,24 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const T
       static_cast<std::uint64_t>(job.memory.tile_workers) * job.memory.tile_bytes(largest) -
       tiling::build_bytes(largest);
 
+  AnalysisTurns turns(job.analyses_at_once);
+  const auto build = [&](std::size_t tile) {
+    std::optional<OwnThreadLoops> alone;
+    if (job.analyses_at_once < job.memory.tile_workers) alone.emplace();  // Analyses have the threads.
+    TilePoints points = store.build(tile);
+    points.covered = points.covered.unlimited_beyond(job.survey.bounds);
+    return points;
+  };
   const auto analyse = [&](std::size_t tile) {
     cancel.check();
     const tiling::PlannedTile& planned = job.tiles.tiles[tile];
     const MemoryBudget::Reservation bytes = budget.reserve(job.memory.tile_bytes(planned.covered_points));
     TileOutcome outcome;
     {
-      TilePoints points = store.build(tile);
-      points.covered = points.covered.unlimited_beyond(job.survey.bounds);
-      outcome = analysis(points, std::nullopt);
+      const TilePoints points = build(tile);
+      AnalysisTurns::Turn turn(turns);
+      cancel.check();
+      outcome = analysis(points, std::nullopt, [&turn] { turn.end(); });
     }
     if (!outcome.unproven.empty()) {
       write_queries(folder / fmt::format("{}.queries", tile), outcome.unproven);

@@ -169,7 +169,7 @@ void Widener::analyse(TilePoints&& points, std::span<const UnprovenQuery> querie
   }
   std::vector<PlacedQuery> placed;
   for (const UnprovenQuery& query : queries) placed.push_back({index_of.at(query.id), query.reach_steps});
-  const TileOutcome answered = analysis_(points, placed);
+  const TileOutcome answered = analysis_(points, placed, [] {});
   points = {};
   isolated_ += answered.isolated;
   require_progress(queries, answered.unproven);

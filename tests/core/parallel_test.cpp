@@ -81,6 +81,55 @@ TEST(ThreadLimit, LoopsSideBySide_ShareTheThreads) {
 }
 #endif
 
+TEST(OwnThreadLoops, EveryBody_RunsOnTheCallingThreadInTheSameChunks) {
+  const auto own = std::this_thread::get_id();
+  {
+    const OwnThreadLoops alone;
+    EXPECT_EQ(loop_threads(), 1);
+    std::vector<std::size_t> begins, ends;
+    parallel_for_chunks(20, 8, [&](std::size_t begin, std::size_t end) {
+      EXPECT_EQ(std::this_thread::get_id(), own);
+      begins.push_back(begin);
+      ends.push_back(end);
+    });
+    EXPECT_EQ(begins, (std::vector<std::size_t>{0, 8, 16}));
+    EXPECT_EQ(ends, (std::vector<std::size_t>{8, 16, 20}));
+    int bodies = 0;
+    EXPECT_THROW(parallel_for_chunks(5, 1,
+                                     [&](std::size_t, std::size_t) {
+                                       ++bodies;
+                                       throw std::runtime_error("first");
+                                     }),
+                 std::runtime_error);
+    EXPECT_EQ(bodies, 1);
+  }
+  const ThreadLimit limit(2);
+  EXPECT_EQ(loop_threads(), 2);
+}
+
+TEST(OwnThreadLoops, LoopInTheBackground_EndsWhileAnotherHasAllThreads) {
+  const ThreadLimit limit(2);
+  std::atomic<bool> done{false};
+  std::atomic<int> ended_after{0};
+  BackgroundTasks tasks(1);
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  std::atomic<int> waiting{0};
+  parallel_for_chunks(2, 1, [&](std::size_t, std::size_t) {
+    if (++waiting == 2) {
+      tasks.run([&] {
+        const OwnThreadLoops alone;
+        parallel_for_chunks(100, 1, [](std::size_t, std::size_t) {});
+        done = true;
+      });
+    }
+    while (!done && waiting == 2 && std::chrono::steady_clock::now() < give_up)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ended_after += done;
+  });
+  EXPECT_GE(ended_after, 1);
+  tasks.wait();
+}
+
 TEST(BackgroundTasks, AllTasks_AreDoneAfterWait) {
   BackgroundTasks tasks(3);
   std::atomic<int> done{0};
