@@ -46,10 +46,13 @@ double likely_followed_bytes(const TileJob& job, const TileNeeds& needs, double 
 }
 
 /// Of the tiles that wait, those which some query may ask for. Queries that ask again reach far: the larger the cores
-/// beside that, the likelier. Measured.
+/// beside that, the likelier. Of many small tiles more are done with early. Measured.
 double likely_unproven_share(const TileJob& job) {
-  constexpr double kAskedOnce = 0.74, kEvenSquares = 1.2;
-  if (!job.asks_again) return kAskedOnce;
+  constexpr double kAskedOnce = 0.74, kAskedOnceOfSmall = 0.6, kEvenSquares = 1.2;
+  constexpr std::size_t kManyTiles = 50, kSmallTilePoints = 400'000;
+  const std::size_t tiles = job.tiles.tiles.size();
+  const bool many_small = tiles > kManyTiles && job.survey.points() / tiles < kSmallTilePoints;
+  if (!job.asks_again) return many_small ? kAskedOnceOfSmall : kAskedOnce;
   const auto reach = static_cast<double>(job.farthest_steps);
   double area = 0.0;
   for (const tiling::PlannedTile& tile : job.tiles.tiles) {
@@ -105,7 +108,7 @@ double likely_tiles_bytes(const TileJob& job, int analyses) {
 /// As against fixed_bytes and tile_bytes(), which bound it: buffers are seldom full. Measured (bench/README.md).
 double likely_peak_bytes(const TileJob& job, double tiles_bytes) {
   constexpr double kProgramBytes = 38.5e6;  // All that stays where several tiles take the room of the survey in turn.
-  constexpr double kThreadBytes = 6e6;      // Of every thread but the first: what is read ahead, a heap of its own.
+  constexpr double kThreadBytes = 4.5e6;    // Of every thread but the first: what is read ahead, a heap of its own.
   constexpr double kGatherBytes =
       87e6;  // Results of a few million points, records and buffers while outputs are written.
   constexpr double kGatherPoints = 3e6;
