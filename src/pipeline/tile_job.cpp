@@ -37,6 +37,34 @@ tiling::TilePlan plan_tiles_around_crowds(const tiling::Survey& survey, const ti
   return plan;
 }
 
+/// How many tiles are in flight, and analysed at a time.
+void choose_workers(TileJob& job, const TileNeeds& needs) {
+  // Tiles share what threads there are: what is serial in one goes on beside the loops of another.
+  job.memory.tile_workers = static_cast<int>(
+      std::clamp<std::size_t>(job.tiles.tiles.size(), 1, static_cast<std::size_t>(job.memory.tile_workers)));
+  const std::uint64_t largest = job.memory.tile_bytes(job.tiles.largest_covered_points);
+  while (job.memory.tile_workers > 1 && largest * job.memory.tile_workers > job.memory.tiles_bytes)
+    --job.memory.tile_workers;
+  if (largest > job.memory.tiles_bytes) {
+    throw BudgetError(
+        fmt::format("the densest tile that cannot be split holds {} points and needs {}; run with at least --memory {}",
+                    grouped(job.tiles.largest_covered_points), human_bytes(largest),
+                    budget_text(least_budget_bytes(job.tiles.largest_covered_points, job.memory_request))));
+  }
+  job.analyses_at_once = needs.in_turn ? (job.memory.tile_workers + 1) / 2 : job.memory.tile_workers;
+}
+
+void predict(TileJob& job, const TileNeeds& needs) {
+  if (job.tiles.tiles.size() <= 1) release_free_memory();  // What the survey has left differs from run to run.
+  const double room_bytes = likely_tiles_bytes(job, job.memory.tile_workers);
+  job.room_after_tiles_bytes = std::min(job.memory.tiles_bytes, static_cast<std::uint64_t>(room_bytes));
+  const bool is_kept = needs.likely_later_bytes < static_cast<double>(job.room_after_tiles_bytes);  // All or nothing.
+  const double later_bytes = is_kept ? needs.likely_later_bytes : 0.0;
+  job.predicted_peak_bytes = static_cast<std::uint64_t>(
+      likely_peak_bytes(job, std::max(likely_tiles_bytes(job, job.analyses_at_once), later_bytes)));
+  job.predicted_temp_bytes = likely_temp_bytes(job, needs);
+}
+
 }  // namespace
 
 void plan_tiles_of(TileJob& job, const TileNeeds& needs, io::InputSet& inputs, const RunRequest& request,
@@ -54,26 +82,8 @@ void plan_tiles_of(TileJob& job, const TileNeeds& needs, io::InputSet& inputs, c
       needs.whole_halo ? 0
                        : static_cast<std::int64_t>(std::ceil(needs.max_radius / job.survey.lattice.step + kRounding));
 
-  // Tiles share what threads there are: what is serial in one goes on beside the loops of another.
-  job.memory.tile_workers = static_cast<int>(
-      std::clamp<std::size_t>(job.tiles.tiles.size(), 1, static_cast<std::size_t>(job.memory.tile_workers)));
-  const std::uint64_t largest = job.memory.tile_bytes(job.tiles.largest_covered_points);
-  while (job.memory.tile_workers > 1 && largest * job.memory.tile_workers > job.memory.tiles_bytes)
-    --job.memory.tile_workers;
-  if (largest > job.memory.tiles_bytes) {
-    throw BudgetError(
-        fmt::format("the densest tile that cannot be split holds {} points and needs {}; run with at least --memory {}",
-                    grouped(job.tiles.largest_covered_points), human_bytes(largest),
-                    budget_text(least_budget_bytes(job.tiles.largest_covered_points, job.memory_request))));
-  }
-  if (job.tiles.tiles.size() <= 1) release_free_memory();  // What the survey has left differs from run to run.
-  job.analyses_at_once = needs.in_turn ? (job.memory.tile_workers + 1) / 2 : job.memory.tile_workers;
-  const double room_bytes = likely_tiles_bytes(job, job.memory.tile_workers);
-  job.room_after_tiles_bytes = std::min(job.memory.tiles_bytes, static_cast<std::uint64_t>(room_bytes));
-  const double later_bytes = needs.likely_later_bytes < room_bytes ? needs.likely_later_bytes : 0.0;  // All or nothing.
-  job.predicted_peak_bytes = static_cast<std::uint64_t>(
-      likely_peak_bytes(job, std::max(likely_tiles_bytes(job, job.analyses_at_once), later_bytes)));
-  job.predicted_temp_bytes = likely_temp_bytes(job, needs);
+  choose_workers(job, needs);
+  predict(job, needs);
   const auto points = static_cast<double>(job.survey.points());
   const double most_bytes = points * job.tiles.duplication * (needs.stored_bytes_per_point + kTileFileBytesPerPoint) +
                             points * needs.most_result_bytes_per_point;
