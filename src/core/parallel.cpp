@@ -133,9 +133,10 @@ void parallel_for_chunks(std::size_t count, std::size_t grain,
   LoopBodies bodies;
   const auto loop = [&] {
     tbb::this_task_arena::isolate([&] {
-      tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
-        bodies.run(body, chunk * grain, std::min(count, (chunk + 1) * grain));
-      });
+      tbb::parallel_for(std::size_t{0}, chunks,
+                        [&](std::size_t chunk) {
+                          bodies.run(body, chunk * grain, std::min(count, (chunk + 1) * grain));
+                        });
     });
   };
   arena().execute(loop);

@@ -109,25 +109,28 @@ TEST(OwnThreadLoops, EveryBody_RunsOnTheCallingThreadInTheSameChunks) {
 
 TEST(OwnThreadLoops, LoopInTheBackground_EndsWhileAnotherHasAllThreads) {
   const ThreadLimit limit(2);
-  std::atomic<bool> done{false};
-  std::atomic<int> ended_after{0};
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto wait_until = [give_up](const auto& condition) {
+    while (!condition() && std::chrono::steady_clock::now() < give_up)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  std::atomic<int> bodies{0}, saw_the_end{0};
+  std::atomic<bool> ended{false};
   BackgroundTasks tasks(1);
-  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  std::atomic<int> waiting{0};
   parallel_for_chunks(2, 1, [&](std::size_t, std::size_t) {
-    if (++waiting == 2) {
+    if (++bodies == 2) {  // All places are taken.
       tasks.run([&] {
         const OwnThreadLoops alone;
         parallel_for_chunks(100, 1, [](std::size_t, std::size_t) {});
-        done = true;
+        ended = true;
       });
     }
-    while (!done && waiting == 2 && std::chrono::steady_clock::now() < give_up)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    ended_after += done;
+    wait_until([&] { return bodies == 2; });
+    wait_until([&] { return ended.load(); });
+    saw_the_end += ended;
   });
-  EXPECT_GE(ended_after, 1);
   tasks.wait();
+  EXPECT_EQ(saw_the_end, 2);
 }
 
 TEST(BackgroundTasks, AllTasks_AreDoneAfterWait) {
