@@ -31,10 +31,10 @@ void SegmentFrontier::append(std::span<const std::uint32_t> words) {
 
 void SegmentFrontier::keep_border(const PointLabels& labels, std::uint64_t most_bytes) {
   std::uint64_t kept_bytes = 0;
+  bool keeps = true;
   std::vector<FrontierBlock> borders(std::min(kPartsAtATime, parts_.size()));
   for (std::size_t first = 0; first < parts_.size(); first += borders.size()) {
     const std::size_t count = std::min(borders.size(), parts_.size() - first);
-    const bool keeps = kept_bytes < most_bytes;
     parallel_for_chunks(
         count, 1, [&](std::size_t i, std::size_t) { borders[i] = drop_interior(labels, parts_[first + i], keeps); });
     for (std::size_t i = 0; i < count; ++i) {
@@ -42,12 +42,10 @@ void SegmentFrontier::keep_border(const PointLabels& labels, std::uint64_t most_
       const auto dropped = static_cast<std::uint64_t>(std::count(part.dropped.begin(), part.dropped.end(), true));
       if (dropped == 0) part.dropped = {};
       records_ -= dropped;
+      keeps = keeps && kept_bytes + borders[i].size_bytes() <= most_bytes;
+      if (!keeps) continue;
       kept_bytes += borders[i].size_bytes();
-      if (kept_bytes < most_bytes) {
-        kept_.push_back(std::move(borders[i]));
-      } else {
-        kept_ = {};
-      }
+      kept_.push_back(std::move(borders[i]));
     }
   }
 }
@@ -74,13 +72,9 @@ void SegmentFrontier::read(const Part& part, FrontierBlock& block) const {
 }
 
 void SegmentFrontier::for_each_block(const std::function<void(const FrontierBlock&)>& use) const {
-  if (kept_.empty()) return for_each_block_on_disk(use);
   for (const FrontierBlock& block : kept_) use(block);
-}
-
-void SegmentFrontier::for_each_block_on_disk(const std::function<void(const FrontierBlock&)>& use) const {
-  std::vector<FrontierBlock> blocks(std::min(kPartsAtATime, parts_.size()));
-  for (std::size_t first = 0; first < parts_.size(); first += blocks.size()) {
+  std::vector<FrontierBlock> blocks(std::min(kPartsAtATime, parts_.size() - kept_.size()));
+  for (std::size_t first = kept_.size(); first < parts_.size(); first += blocks.size()) {
     const std::size_t count = std::min(blocks.size(), parts_.size() - first);
     parallel_for_chunks(count, 1, [&](std::size_t begin, std::size_t) { read(parts_[first + begin], blocks[begin]); });
     for (std::size_t i = 0; i < count; ++i) use(blocks[i]);

@@ -16,7 +16,7 @@
 namespace arris::merge {
 
 /// Appended in any order, then cut down to the border, then read as often as wanted. Disk: frontier_coding.h. Memory:
-/// all of the border if there is room, else a bit per record, and a few blocks while reading.
+/// as much of the border as there is room for, of the rest a bit per record, and a few blocks while reading.
 class SegmentFrontier {
  public:
   /// @param most_neighbours  k of the records.
@@ -28,7 +28,7 @@ class SegmentFrontier {
   /// Drops the points all of whose neighbours are in the point's own segment. Which of those the tiles appended depends
   /// on how the scan was cut; what is left does not. They stay on disk, being few. Call once, after the last append().
   /// Several blocks at a time, in parallel.
-  /// @param most_bytes  memory that what is left may take: if it does not fit, it is read from disk every time.
+  /// @param most_bytes  memory that what is left may take: what does not fit is read from disk every time.
   void keep_border(const PointLabels& labels, std::uint64_t most_bytes = 0);
 
   /// Calls use(block) for blocks that have all the points in turn. Blocks are read several at a time, in parallel.
@@ -47,13 +47,12 @@ class SegmentFrontier {
   void read(const Part& part, FrontierBlock& block) const;
   /// What keep_border() does with one part. Returns the border if it is to be kept.
   FrontierBlock drop_interior(const PointLabels& labels, Part& part, bool keeps) const;
-  void for_each_block_on_disk(const std::function<void(const FrontierBlock& block)>& use) const;
 
   std::size_t stride_;
   std::mutex mutex_;
   tiling::ScratchFile file_;
   std::vector<Part> parts_;
-  std::vector<FrontierBlock> kept_;  ///< All of the border, or nothing.
+  std::vector<FrontierBlock> kept_;  ///< The border of the first parts.
   std::uint64_t records_ = 0;
 };
 

@@ -7,6 +7,7 @@
 
 #include "core/columns.h"
 #include "core/error.h"
+#include "core/pages.h"
 #include "core/parallel.h"
 #include "core/process_memory.h"
 #include "merge/result_reader.h"
@@ -24,6 +25,9 @@
 
 namespace arris::pipeline {
 namespace {
+
+/// Of what the frontier has left: buffers of outputs take some.
+constexpr std::size_t kSpareWhileWriting = std::size_t{16} << 20;
 
 /// Before any work.
 void check_outputs(const SegmentRequest& request) {
@@ -134,6 +138,7 @@ SegmentReport segment(const SegmentRequest& request, ProgressSink& progress, con
   const Lattice lattice = job.survey.lattice;
   const RunFolder folder(request.temp_dir);
   const PlanarSegments segments = find_segments(inputs, plan, folder.path(), report, watch, sink, cancel);
+  trim_spare_pages(kSpareWhileWriting);
 
   report.shape = request.shape;
   report.shape.boundary = report.shape.fold = request.contours;

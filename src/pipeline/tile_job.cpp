@@ -56,10 +56,12 @@ void choose_workers(TileJob& job, const TileNeeds& needs) {
 
 void predict(TileJob& job, const TileNeeds& needs) {
   if (job.tiles.tiles.size() <= 1) release_free_memory();  // What the survey has left differs from run to run.
-  const double room_bytes = likely_tiles_bytes(job, job.memory.tile_workers);
-  job.room_after_tiles_bytes = std::min(job.memory.tiles_bytes, static_cast<std::uint64_t>(room_bytes));
-  const bool is_kept = needs.likely_later_bytes < static_cast<double>(job.room_after_tiles_bytes);  // All or nothing.
-  const double later_bytes = is_kept ? needs.likely_later_bytes : 0.0;
+  constexpr double kPassBytes = 12e6;  // Batches of a pass, blocks on their way.
+  const double room_bytes =
+      std::min(static_cast<double>(job.memory.tiles_bytes), likely_tiles_bytes(job, job.memory.tile_workers));
+  job.room_after_tiles_bytes = static_cast<std::uint64_t>(std::max(0.0, room_bytes - kPassBytes));
+  const double kept_bytes = std::min(needs.likely_later_bytes, static_cast<double>(job.room_after_tiles_bytes));
+  const double later_bytes = kept_bytes > 0.0 ? kept_bytes + kPassBytes : 0.0;
   job.predicted_peak_bytes = static_cast<std::uint64_t>(
       likely_peak_bytes(job, std::max(likely_tiles_bytes(job, job.analyses_at_once), later_bytes)));
   job.predicted_temp_bytes = likely_temp_bytes(job, needs);

@@ -73,12 +73,12 @@ class Gable {
   LatticePoint position(int column, int row) const {
     return {column * kStep, row * kStep, -std::abs(column) * kStep + lift(column, row)};
   }
-  /// Labels by `label(column, row)`; everything is frontier.
+  /// Labels by `label(column, row)`; everything is frontier, column by column.
   template <class Label>
   void build(Label&& label) {
     labels.assign(static_cast<std::size_t>(2 * kHalf + 1) * kLength, 0);
-    std::vector<std::uint32_t> words;
     for (int c = -kHalf; c <= kHalf; ++c) {
+      std::vector<std::uint32_t> words;
       for (int r = 0; r < kLength; ++r) {
         labels[id(c, r)] = label(c, r);
         const LatticePoint p = position(c, r);
@@ -93,8 +93,8 @@ class Gable {
         words.insert(words.end(), 4 - added, TileGrowth::kNoId);
         if (labels[id(c, r)] != 0) moments.add(labels[id(c, r)], p);
       }
+      frontier.append(words);
     }
-    frontier.append(words);
     planes = {moments.plane(1), moments.plane(2)};
     for (SegmentPlane& plane : planes) plane.spacing = kStep;
   }
@@ -193,8 +193,9 @@ TEST(Reassignment, DuplicatesFollowAndCount) {
   EXPECT_EQ(gable.moments.points(2), before + Gable::kLength + 1);
 }
 
-TEST(SegmentFrontier, KeepBorder_DropsWhatIsInsideOneSegment) {
+TEST(SegmentFrontier, KeepBorder_DropsWhatIsInsideOneSegment_WhateverFitsIntoMemory) {
   std::vector<std::uint32_t> from_disk;
+  // Nothing, two of the three columns of the border, all.
   for (const std::uint64_t most_bytes : {std::uint64_t{0}, std::uint64_t{1000}, std::uint64_t{1} << 30}) {
     const test::TempFolder folder;
     Gable gable(folder.path());
