@@ -38,6 +38,10 @@ class PlyFixedSource final : public PointSource {
 
   const SourceInfo& info() const override { return info_; }
   void rewind() override { next_ = 0; }
+  bool skip_to(std::uint64_t point) override {
+    next_ = point;
+    return true;
+  }
 
   bool read(PointBatch& batch, const ReadOptions& options) override {
     const std::size_t count = batch_count(options.batch_points, info_.points - next_, info_.record_bytes);

@@ -149,6 +149,26 @@ void InputSet::exclude(const PointExclusion& exclusion) {
   exclusion_ = exclusion;
 }
 
+void InputSet::open_next() {
+  const SourceInfo& expected = infos_[next_];
+  open_ = open_point_source(expected.path, expected.tolerance);
+  if (open_->info().size_bytes != expected.size_bytes || open_->info().points != expected.points ||
+      open_->info().modified_ns != expected.modified_ns) {
+    refuse_changed(expected, fmt::format("{} points, now {}", expected.points, open_->info().points));
+  }
+  current_ = next_++;
+}
+
+bool InputSet::skip_to(std::uint64_t id) {
+  const bool is_open = open_ && id >= first_id_ && id - first_id_ < infos_[current_].points;
+  if (!is_open) {
+    rewind();
+    while (id - first_id_ >= infos_.at(next_).points) first_id_ += infos_[next_++].points;
+    open_next();
+  }
+  return open_->skip_to(id - first_id_);
+}
+
 bool InputSet::read(PointBatch& batch, const ReadOptions& wanted) {
   ReadOptions options = wanted;
   const bool own = !wanted.exclusion.any();
@@ -171,13 +191,7 @@ bool InputSet::read(PointBatch& batch, const ReadOptions& wanted) {
       batch.count = 0;
       return false;
     }
-    const SourceInfo& expected = infos_[next_];
-    open_ = open_point_source(expected.path, expected.tolerance);
-    if (open_->info().size_bytes != expected.size_bytes || open_->info().points != expected.points ||
-        open_->info().modified_ns != expected.modified_ns) {
-      refuse_changed(expected, fmt::format("{} points, now {}", expected.points, open_->info().points));
-    }
-    current_ = next_++;
+    open_next();
   }
 }
 

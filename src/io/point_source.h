@@ -104,6 +104,9 @@ class PointSource {
   /// Fills `batch` with the next points and returns true, or returns false (count = 0) after the last point. first_id
   /// counts from 0 within this source. Throws InputError for damaged content, IoError if reading fails.
   virtual bool read(PointBatch& batch, const ReadOptions& options) = 0;
+  /// Goes on with that point, <= info().points, as if all before it had been read. False, and nothing changes, where
+  /// records are not found by arithmetic.
+  virtual bool skip_to(std::uint64_t /*point*/) { return false; }
 };
 
 /// Marks more points of a batch as excluded (`batch.excluded` has batch.count entries). It must give the same for the
@@ -134,6 +137,9 @@ class InputSet {
   void rewind();
   /// As PointSource::read, with global ids. A batch never crosses a file: source_index() tells which one it came from.
   bool read(PointBatch& batch, const ReadOptions& options);
+  /// Goes on with the point of that global id, < points(). False, with nothing to rely on but rewind(), where a source
+  /// cannot do so.
+  bool skip_to(std::uint64_t id);
   std::size_t source_index() const { return current_; }
   /// For all reads from now on whose options name no exclusion of their own. Throws InputError if it asks for classes
   /// (only_classes) of a file that has none.
@@ -144,6 +150,8 @@ class InputSet {
   void check_unchanged() const;
 
  private:
+  void open_next();
+
   std::vector<SourceInfo> infos_;
   std::uint64_t points_ = 0;
   std::size_t current_ = 0;     ///< Source of the last batch delivered.

@@ -11,6 +11,9 @@
 
 namespace arris::tiling {
 
+/// Of CellCounts, unless told otherwise.
+constexpr std::size_t kMostCellLeaves = 8192;
+
 /// Counts points in cells of 2^level lattice steps (cell c covers [c << level, (c + 1) << level) per axis). Starts fine
 /// and coarsens by a factor of two whenever more than max_leaves leaves (of 8x8x8 cells) are active. The final level
 /// and the counts depend on the set of points only, not on their order: it is the finest level, from first_level on, at
@@ -23,7 +26,7 @@ class CellCounts {
  public:
   /// @param first_level  level to start from, 0..30.
   /// @param max_leaves   >= 1. Level 30 is never left, whatever the number of leaves (it has at most 8).
-  explicit CellCounts(int first_level = 0, std::size_t max_leaves = 8192);
+  explicit CellCounts(int first_level = 0, std::size_t max_leaves = kMostCellLeaves);
   ~CellCounts();
   CellCounts(CellCounts&&) noexcept;
   CellCounts& operator=(CellCounts&&) noexcept;

@@ -9,8 +9,10 @@ MappedReader::MappedReader(io::InputSet& inputs, const Lattice& lattice)
   inputs_.rewind();
 }
 
-bool MappedReader::read(MappedPoints& points) {
-  if (!inputs_.read(points.batch, {})) return false;
+bool MappedReader::read(MappedPoints& points, std::size_t batch_points) {
+  io::ReadOptions options;
+  options.batch_points = batch_points;
+  if (!inputs_.read(points.batch, options)) return false;
   mapper_.map(points.batch, inputs_.source_index(), points.positions, points.outcome);
   return true;
 }

@@ -26,7 +26,7 @@ class MappedReader {
  public:
   MappedReader(io::InputSet& inputs, const Lattice& lattice);
   /// False at the end. Throws IoError, InputError.
-  bool read(MappedPoints& points);
+  bool read(MappedPoints& points, std::size_t batch_points = io::ReadOptions().batch_points);
 
  private:
   io::InputSet& inputs_;

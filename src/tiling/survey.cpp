@@ -1,31 +1,79 @@
 #include "tiling/survey.h"
 
 #include <algorithm>
+#include <vector>
 
+#include "core/read_ahead.h"
+#include "tiling/cell_level.h"
 #include "tiling/lattice_choice.h"
 #include "tiling/mapped_pass.h"
 #include "tiling/spacing.h"
 
 namespace arris::tiling {
+namespace {
 
-void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome) {
-  points_in += positions.size();
+/// Points here and there, by which counting knows how coarse it will be.
+constexpr std::uint64_t kSampleBatches = 64;
+constexpr std::size_t kSampleBatchPoints = 1024;
+
+struct SurveyBatch {
+  MappedPoints points;
+  SurveyTotals totals;
+};
+
+/// The finest level that may do for all points. 0 where they cannot be had here and there.
+int least_level(io::InputSet& inputs, const Lattice& lattice) {
+  std::vector<LatticePoint> sample;
+  MappedReader reader(inputs, lattice);
+  MappedPoints points;
+  for (std::uint64_t i = 0; i < kSampleBatches; ++i) {
+    if (!inputs.skip_to(inputs.points() / kSampleBatches * i) || !reader.read(points, kSampleBatchPoints)) return 0;
+    for_each_mapped_run(points.outcome, [&](std::size_t begin, std::size_t end) {
+      sample.insert(sample.end(), points.positions.begin() + static_cast<std::ptrdiff_t>(begin),
+                    points.positions.begin() + static_cast<std::ptrdiff_t>(end));
+    });
+  }
+  return level_that_fits(sample, 0, kMostCellLeaves);
+}
+
+}  // namespace
+
+void SurveyTotals::add(const SurveyTotals& more) {
+  bounds.include(more.bounds);
+  points_in += more.points_in;
+  dropped_nonfinite += more.dropped_nonfinite;
+  dropped_out_of_range += more.dropped_out_of_range;
+  dropped_excluded += more.dropped_excluded;
+}
+
+SurveyTotals totals_of(std::span<const LatticePoint> positions, std::span<const Mapped> outcome) {
+  SurveyTotals totals;
+  totals.points_in = positions.size();
   for_each_mapped_run(outcome, [&](std::size_t begin, std::size_t end) {
-    const auto run = positions.subspan(begin, end - begin);
-    counts.add(run);
-    LatticePoint low = run.front(), high = run.front();
-    for (const LatticePoint& p : run) {
+    LatticePoint low = positions[begin], high = low;
+    for (const LatticePoint& p : positions.subspan(begin, end - begin)) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    bounds.include(low);
-    bounds.include(high);
+    totals.bounds.include(low);
+    totals.bounds.include(high);
   });
   for (const Mapped mapped : outcome) {
-    dropped_nonfinite += mapped == Mapped::kNonFinite;
-    dropped_out_of_range += mapped == Mapped::kOutOfRange;
-    dropped_excluded += mapped == Mapped::kExcluded;
+    totals.dropped_nonfinite += mapped == Mapped::kNonFinite;
+    totals.dropped_out_of_range += mapped == Mapped::kOutOfRange;
+    totals.dropped_excluded += mapped == Mapped::kExcluded;
   }
+  return totals;
+}
+
+void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome, const SurveyTotals& totals) {
+  SurveyTotals::add(totals);
+  for_each_mapped_run(
+      outcome, [&](std::size_t begin, std::size_t end) { counts.add(positions.subspan(begin, end - begin)); });
+}
+
+void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome) {
+  add(positions, outcome, totals_of(positions, outcome));
 }
 
 void Survey::finish() {
@@ -48,8 +96,21 @@ Survey survey_inputs(io::InputSet& inputs, const SurveyOptions& options, Progres
   }
 
   Survey survey;
-  for_each_mapped_batch(inputs, choice.lattice(), "survey", progress, cancel,
-                        [&](const MappedPoints& points) { survey.add(points.positions, points.outcome); });
+  const bool is_large = inputs.points() > 4 * kSampleBatches * kSampleBatchPoints;
+  if (is_large) survey.counts = CellCounts(least_level(inputs, choice.lattice()));
+  progress.phase("survey", inputs.points());
+  MappedReader reader(inputs, choice.lattice());
+  read_ahead<SurveyBatch>(
+      [&](SurveyBatch& batch) {
+        if (!reader.read(batch.points)) return false;
+        batch.totals = totals_of(batch.points.positions, batch.points.outcome);
+        return true;
+      },
+      [&](const SurveyBatch& batch) {
+        cancel.check();
+        survey.add(batch.points.positions, batch.points.outcome, batch.totals);
+        progress.advance(batch.points.batch.count);
+      });
   survey.lattice = choice.lattice();
   survey.finish();
   return survey;

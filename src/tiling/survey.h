@@ -22,21 +22,31 @@ struct SurveyOptions {
   double lattice_step = 0.0;
 };
 
-struct Survey {
-  Lattice lattice;
+/// How many points there are, and where, all in all.
+struct SurveyTotals {
   LatticeBox bounds;                       ///< Of the points that take part; empty if there are none.
   std::uint64_t points_in = 0;             ///< Points read.
   std::uint64_t dropped_nonfinite = 0;     ///< NaN or infinite coordinates: they take no part and stay unlabelled.
   std::uint64_t dropped_out_of_range = 0;  ///< Finite, but not representable on the lattice.
   std::uint64_t dropped_excluded = 0;      ///< Excluded by the caller (InputSet::exclude).
+  std::uint64_t points() const { return points_in - dropped_nonfinite - dropped_out_of_range - dropped_excluded; }
+
+  void add(const SurveyTotals& more);
+};
+
+/// Of a batch of mapped points (equal lengths).
+SurveyTotals totals_of(std::span<const LatticePoint> positions, std::span<const Mapped> outcome);
+
+struct Survey : SurveyTotals {
+  Lattice lattice;
   /// Typical spacing in data units: median over points of cell / sqrt(count of the cell), on the finest level at which
   /// the median count is at least 16 (coarser levels are made from finer ones). 0 for empty input; spacing.h has the
   /// degenerate cases.
   double spacing = 0.0;
   CellCounts counts;  ///< Points per absolute cell of 2^k lattice steps.
-  std::uint64_t points() const { return points_in - dropped_nonfinite - dropped_out_of_range - dropped_excluded; }
 
-  /// Counts a batch of mapped points (equal lengths).
+  /// Counts a batch of mapped points (equal lengths), of which `totals` are known.
+  void add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome, const SurveyTotals& totals);
   void add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome);
   /// Completes the survey after the last batch: sets spacing.
   void finish();

@@ -40,6 +40,50 @@ TEST(InputSet, SeveralFiles_AreOneStreamWithGlobalIds) {
   }
 }
 
+TEST(InputSet, SkipTo_GoesOnThereAsIfAllBeforeHadBeenRead) {
+  const TempFolder folder;
+  std::vector<std::filesystem::path> paths;
+  for (const std::size_t count : {5, 0, 7}) {
+    LasPlan plan;
+    plan.points = make_records(count, 20, static_cast<unsigned>(count));
+    paths.push_back(folder / (std::to_string(paths.size()) + ".las").c_str());
+    write_new(paths.back(), build_las(plan));
+  }
+  for (const char* format : {"binary_big_endian", "ascii"}) {
+    paths.push_back(folder / (std::string(format) + ".ply").c_str());
+    write_new(paths.back(), build_ply({format, "\n", {}, {make_vertices({{"x"}, {"y"}, {"z"}}, 3)}}));
+  }
+  io::InputSet set(paths);
+  std::vector<std::array<double, 3>> all;
+  io::PointBatch batch;
+  const auto places = [&] {
+    std::vector<std::array<double, 3>> at;
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      at.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        at.back()[axis] = io::world_coordinate(set.sources()[set.source_index()], batch, i, axis);
+    }
+    return at;
+  };
+  while (set.read(batch, {})) std::ranges::copy(places(), std::back_inserter(all));
+  ASSERT_EQ(all.size(), 18U);
+  io::ReadOptions two;
+  two.batch_points = 2;
+  for (const std::uint64_t id : {13U, 4U, 5U, 11U, 0U, 12U, 7U, 8U}) {
+    ASSERT_TRUE(set.skip_to(id)) << id;
+    ASSERT_TRUE(set.read(batch, two));
+    EXPECT_EQ(batch.first_id, id);
+    EXPECT_EQ(batch.count, id == 4 || id == 11 ? 1U : 2U) << "a batch ends with its file";
+    EXPECT_EQ(places(), std::vector(all.begin() + static_cast<std::ptrdiff_t>(id),
+                                    all.begin() + static_cast<std::ptrdiff_t>(id + batch.count)));
+  }
+  EXPECT_FALSE(set.skip_to(16)) << "where lines end is known by reading only";
+  set.rewind();
+  std::uint64_t again = 0;
+  while (set.read(batch, {})) again += batch.count;
+  EXPECT_EQ(again, 18U);
+}
+
 TEST(InputSet, FileReplacedBetweenPasses_IsRefused) {
   const TempFolder folder;
   LasPlan plan;
