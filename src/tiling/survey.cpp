@@ -68,8 +68,8 @@ SurveyTotals totals_of(std::span<const LatticePoint> positions, std::span<const 
 
 void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome, const SurveyTotals& totals) {
   SurveyTotals::add(totals);
-  for_each_mapped_run(
-      outcome, [&](std::size_t begin, std::size_t end) { counts.add(positions.subspan(begin, end - begin)); });
+  for_each_mapped_run(outcome,
+                      [&](std::size_t begin, std::size_t end) { counts.add(positions.subspan(begin, end - begin)); });
 }
 
 void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome) {
