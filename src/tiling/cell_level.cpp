@@ -16,8 +16,8 @@ constexpr std::size_t kBitsPerLeaf = 64;
 
 int level_that_fits(std::span<const LatticePoint> points, int first, std::size_t max_leaves) {
   const std::size_t stride = std::max<std::size_t>(1, points.size() / std::max<std::size_t>(1, 4 * max_leaves));
-  // A bit per hash: where two leaves have the same, they count as one.
-  const std::size_t bits = std::bit_ceil(kBitsPerLeaf * std::max<std::size_t>(1, max_leaves));
+  // A bit per hash: where two leaves have the same, they count as one. There are no more leaves than points.
+  const std::size_t bits = std::bit_ceil(kBitsPerLeaf * (std::min(max_leaves, points.size()) + 1));
   const int shift = 64 - std::countr_zero(bits);
   std::vector<bool> met;
   const auto fits = [&](int level) {

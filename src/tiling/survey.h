@@ -47,6 +47,7 @@ struct Survey : SurveyTotals {
 
   /// Counts a batch of mapped points (equal lengths), of which `totals` are known.
   void add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome, const SurveyTotals& totals);
+  /// The same, where they are not.
   void add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome);
   /// Completes the survey after the last batch: sets spacing.
   void finish();

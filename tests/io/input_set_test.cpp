@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+
 #include "io_helpers.h"
 #include "las_builder.h"
 #include "ply_builder.h"

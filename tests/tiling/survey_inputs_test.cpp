@@ -4,6 +4,7 @@
 #include <atomic>
 #include <fstream>
 #include <random>
+#include <span>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -71,7 +72,6 @@ TEST(SurveyInputs, OrderAndFileSplit_DoNotMatter) {
   const Survey b = survey_inputs(many, {}, progress, cancel);
   expect_same(a, b);
   EXPECT_GT(a.counts.level(), 0);
-  EXPECT_EQ(a.counts.active_cells(), b.counts.active_cells());
   for (const LatticePoint& p : std::span(points).first(1000)) EXPECT_EQ(a.counts.count_at(p), b.counts.count_at(p));
 }
 
