@@ -5,49 +5,58 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/read_ahead.h"
+#include "core/stages.h"
 #include "tiling/survey.h"
 
 namespace arris::pipeline {
 namespace {
 
+/// Of loops over the points of a batch, where there are more threads than batches on their way.
 constexpr std::size_t kGrain = 8 * 1024;
 
 struct LabelledBatch {
   io::PointBatch batch;
   std::size_t source = 0;
   std::vector<LatticePoint> positions;
+  std::vector<tiling::Mapped> outcome;
   std::vector<std::uint32_t> ids;  ///< 0 for points that take no part.
 };
 
-/// Calls use(labelled batch) for all points in order, while the next batch is read and labelled.
+void label(const LabelPass& pass, LabelledBatch& points) {
+  pass.mapper.map(points.batch, points.source, points.positions, points.outcome);
+  const std::size_t count = points.batch.count;
+  points.ids.assign(count, 0);
+  const bool enough_batches = static_cast<std::size_t>(loop_threads()) <= kItemsAhead;
+  parallel_for_chunks(count, enough_batches ? count : kGrain, [&](std::size_t begin, std::size_t end) {
+    VoxelLabels own = pass.labels;  // Remembers where it was: one per chunk.
+    for (std::size_t i = begin; i < end; ++i) {
+      if (points.outcome[i] != tiling::Mapped::kOk) continue;
+      points.ids[i] = own.at(points.positions[i]);
+      if (points.ids[i] == 0)
+        throw InputError("the inputs changed while they were read; run again when they are complete");
+    }
+  });
+}
+
+/// Calls use(labelled batch) for all points in order, while others are read and labelled.
 void for_each_labelled_batch(io::InputSet& inputs, const LabelPass& pass, bool records,
                              const std::function<void(const LabelledBatch&)>& use) {
   io::ReadOptions options;
   options.records = records;
-  std::vector<tiling::Mapped> outcome;
-  const auto fill = [&](LabelledBatch& points) {
-    if (!inputs.read(points.batch, options)) return false;
-    points.source = inputs.source_index();
-    pass.mapper.map(points.batch, points.source, points.positions, outcome);
-    points.ids.assign(points.batch.count, 0);
-    parallel_for_chunks(points.batch.count, kGrain, [&](std::size_t begin, std::size_t end) {
-      VoxelLabels own = pass.labels;  // Remembers where it was: one per chunk.
-      for (std::size_t i = begin; i < end; ++i) {
-        if (outcome[i] != tiling::Mapped::kOk) continue;
-        points.ids[i] = own.at(points.positions[i]);
-        if (points.ids[i] == 0)
-          throw InputError("the inputs changed while they were read; run again when they are complete");
-      }
-    });
+  ItemPlaces<LabelledBatch> batches;
+  const auto read = [&](std::size_t place) {
+    if (!inputs.read(batches[place].batch, options)) return false;
+    batches[place].source = inputs.source_index();
     return true;
   };
+  const Stage label_all{StageOrder::kAnyOrder, [&](std::size_t place) { label(pass, batches[place]); }};
+  const Stage use_all{StageOrder::kInTurn, [&](std::size_t place) {
+                        pass.cancel.check();
+                        use(batches[place]);
+                        pass.progress.advance(batches[place].batch.count);
+                      }};
   inputs.rewind();
-  read_ahead<LabelledBatch>(fill, [&](const LabelledBatch& points) {
-    pass.cancel.check();
-    use(points);
-    pass.progress.advance(points.batch.count);
-  });
+  run_stages(batches.size(), read, {label_all, use_all});
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "pipeline/voxel_stage.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "core/error.h"
-#include "core/read_ahead.h"
 #include "pipeline/voxel_estimate.h"
 #include "tiling/lattice_mapper.h"
 #include "tiling/voxel_accumulator.h"
@@ -11,11 +11,25 @@
 namespace arris::pipeline {
 namespace {
 
-struct MappedBatch {
-  std::vector<LatticePoint> positions;
-  std::vector<tiling::Mapped> outcome;
-  std::vector<RawColour> colours;  ///< Empty without.
-};
+/// Drops what takes no part.
+void keep_mapped(std::span<const tiling::Mapped> outcome, tiling::VoxelPoints& points) {
+  const bool colours = !points.colours.empty();
+  std::size_t kept = 0;
+  tiling::for_each_mapped_run(outcome, [&](std::size_t begin, std::size_t end) {
+    if (kept != begin) {
+      const auto move = [&](auto& all) {
+        const auto first = all.begin() + static_cast<std::ptrdiff_t>(begin);
+        std::copy(first, first + static_cast<std::ptrdiff_t>(end - begin),
+                  all.begin() + static_cast<std::ptrdiff_t>(kept));
+      };
+      move(points.positions);
+      if (colours) move(points.colours);
+    }
+    kept += end - begin;
+  });
+  points.positions.resize(kept);
+  if (colours) points.colours.resize(kept);
+}
 
 }  // namespace
 
@@ -30,25 +44,20 @@ VoxelStageResult run_voxel_stage(io::InputSet& inputs, const tiling::Survey& sur
   io::ReadOptions options;
   options.records = colours != nullptr;
   io::PointBatch batch;
+  std::vector<tiling::Mapped> outcome;
   std::uint64_t added = 0;
   inputs.rewind();
-  read_ahead<MappedBatch>(
-      [&](MappedBatch& points) {
-        if (!inputs.read(batch, options)) return false;
-        mapper.map(batch, inputs.source_index(), points.positions, points.outcome);
-        if (colours) colours->read(batch, inputs.source_index(), points.colours);
-        return true;
-      },
-      [&](const MappedBatch& points) {
-        cancel.check();
-        tiling::for_each_mapped_run(points.outcome, [&](std::size_t begin, std::size_t end) {
-          const std::span<const LatticePoint> run(points.positions.data() + begin, end - begin);
-          accumulator.add(
-              run, colours ? std::span(points.colours).subspan(begin, end - begin) : std::span<const RawColour>());
-          added += run.size();
-        });
-        progress.advance(points.positions.size());
-      });
+  accumulator.add_all([&](tiling::VoxelPoints& points) {
+    cancel.check();
+    if (!inputs.read(batch, options)) return false;
+    const std::size_t source = inputs.source_index();
+    mapper.map(batch, source, points.positions, outcome);
+    if (colours) colours->read(batch, source, points.colours);
+    keep_mapped(outcome, points);
+    added += points.positions.size();
+    progress.advance(batch.count);
+    return true;
+  });
   if (added != survey.points())
     throw InputError("the inputs changed while they were read; run again when they are complete");
   VoxelStageResult result{accumulator.finish(), colours != nullptr, 0};

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/prefetch.h"
 #include "tiling/page_array.h"
 
 namespace arris::tiling {
@@ -29,7 +30,7 @@ class HashSlots {
   }
 
   std::size_t size() const { return lines_ * kLine; }
-  void prefetch(std::uint32_t hash) const { __builtin_prefetch(&slots_[home(hash)]); }
+  void prefetch(std::uint32_t hash) const { arris::prefetch(&slots_[home(hash)]); }
 
   /// The slot of the element for which same(index) is true, or the free slot where it would be. Needs size() > 0.
   template <class Same>

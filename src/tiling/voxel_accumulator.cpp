@@ -47,6 +47,10 @@ struct VoxelAccumulator::Impl {
         free_bytes(options.table_bytes - std::min(kFixedBytes + write_bytes, options.table_bytes / 2)),
         table(std::in_place, of, free_bytes, options.likely_voxels) {}
 
+  void look_at(std::span<const LatticePoint> positions, std::span<const RawColour> colours) {
+    points += positions.size();
+    for (const RawColour& colour : colours) largest_colour = std::max({largest_colour, colour[0], colour[1], colour[2]});
+  }
   std::unique_ptr<VoxelRun> new_run(bool colours) {
     return std::make_unique<VoxelRun>(folder / fmt::format("voxels-{}.run", runs_made++), colours, write_bytes);
   }
@@ -122,12 +126,22 @@ VoxelAccumulator::VoxelAccumulator(const VoxelGrid& grid, Options options)
 VoxelAccumulator::~VoxelAccumulator() = default;
 
 void VoxelAccumulator::add(std::span<const LatticePoint> positions, std::span<const RawColour> colours) {
-  Impl& impl = *impl_;
-  impl.points += positions.size();
-  for (const RawColour& colour : colours) {
-    impl.largest_colour = std::max({impl.largest_colour, colour[0], colour[1], colour[2]});
-  }
-  while (!impl.table->add(positions, colours)) impl.spill();
+  impl_->look_at(positions, colours);
+  while (!impl_->table->add(positions, colours)) impl_->spill();
+}
+
+void VoxelAccumulator::add_all(const std::function<bool(VoxelPoints& points)>& fill) {
+  VoxelPoints first;  // With it the table knows whether there are colours.
+  if (!fill(first)) return;
+  add(first.positions, first.colours);
+  first = {};
+  const std::function<bool(VoxelPoints&)> fill_counted = [&](VoxelPoints& points) {
+    if (!fill(points)) return false;
+    impl_->look_at(points.positions, points.colours);
+    return true;
+  };
+  VoxelStream stream(*impl_->table, fill_counted);
+  while (!stream.run()) impl_->spill();
 }
 
 VoxelStore VoxelAccumulator::finish() {

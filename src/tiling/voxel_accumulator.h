@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 
 #include "core/voxel.h"
 #include "tiling/voxel_store.h"
+#include "tiling/voxel_stream.h"
 
 namespace arris::tiling {
 
@@ -37,6 +39,9 @@ class VoxelAccumulator {
 
   /// @param colours  as many as positions, or none.
   void add(std::span<const LatticePoint> positions, std::span<const RawColour> colours = {});
+  /// The same with all batches that fill() gives, until it returns false, side by side with fill(), which is called by
+  /// one thread at a time, on any. Either all of them have colours or none.
+  void add_all(const std::function<bool(VoxelPoints& points)>& fill);
   /// Completes the voxels; call once, then add() no more. Throws IoError; BudgetError if there are 2^32 - 1 or more
   /// voxels, or if their index becomes too large.
   VoxelStore finish();

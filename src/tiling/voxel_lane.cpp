@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/avx2.h"
+#include "core/prefetch.h"
 #include "tiling/voxel_hash.h"
 
 namespace arris::tiling {
@@ -153,7 +154,7 @@ std::size_t VoxelLane::add_batch(const Batch& batch, std::size_t count, const Ra
   for (std::size_t i = 0; i < size; ++i) slots_.prefetch(batch.hash[place(i)]);
   for (std::size_t i = 0; i < size; ++i) {
     const std::uint32_t guess = slots_.first(batch.hash[place(i)]);
-    if (guess != HashSlots::kNone) __builtin_prefetch(&sums_[guess]);
+    if (guess != HashSlots::kNone) prefetch(&sums_[guess]);
   }
   std::uint32_t index = kFull;
   for (std::size_t j = 0; j < size; ++j) {

@@ -52,16 +52,22 @@ void VoxelTable::set_limits() {
 }
 
 void VoxelTable::start_colours() {
+  if (has_colours_) return;
   has_colours_ = true;
   set_limits();
   colours_ = PageArray<ColourSums>(room());
   for (VoxelLane& lane : lanes_) lane.start_colours(&colours_[0]);
 }
 
+std::size_t VoxelTable::add_to_lane(std::size_t lane, std::span<const LatticePoint> positions,
+                                    std::span<const RawColour> colours, std::size_t from) {
+  return lanes_[lane].add(positions, colours, from);
+}
+
 bool VoxelTable::add(std::span<const LatticePoint> positions, std::span<const RawColour> colours) {
-  if (!colours.empty() && !has_colours_) start_colours();
+  if (!colours.empty()) start_colours();
   const auto add_to = [&](std::size_t lane) {
-    looked_at_[lane] = lanes_[lane].add(positions, colours, looked_at_[lane]);
+    looked_at_[lane] = add_to_lane(lane, positions, colours, looked_at_[lane]);
   };
   if (positions.size() < kLeastPoints) {
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) add_to(lane);

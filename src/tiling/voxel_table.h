@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/prefetch.h"
 #include "core/voxel.h"
 #include "tiling/page_array.h"
 #include "tiling/voxel_lane.h"
@@ -28,6 +29,13 @@ class VoxelTable {
   /// which it goes on with the rest.
   /// @param colours  as many as positions, or none.
   bool add(std::span<const LatticePoint> positions, std::span<const RawColour> colours);
+  std::size_t lanes() const { return lanes_.size(); }
+  /// Adds the points of one lane's voxels, from `from` on; returns where it stopped, before the end if the lane is full.
+  /// Different lanes may be added to at the same time, colours only after start_colours().
+  std::size_t add_to_lane(std::size_t lane, std::span<const LatticePoint> positions, std::span<const RawColour> colours,
+                          std::size_t from);
+  /// Makes room for them if there is none yet.
+  void start_colours();
   bool empty() const { return size() == 0; }
   bool has_colours() const { return has_colours_; }
 
@@ -38,7 +46,7 @@ class VoxelTable {
     const LatticePoint& key(std::size_t i) const { return table_.sums_[order_[i]].key; }
     VoxelRecord operator[](std::size_t i) const {
       constexpr std::size_t kAhead = 16;
-      if (i + kAhead < size_) __builtin_prefetch(&table_.sums_[order_[i + kAhead]]);
+      if (i + kAhead < size_) prefetch(&table_.sums_[order_[i + kAhead]]);
       VoxelRecord record{table_.sums_[order_[i]], {}};
       if (table_.has_colours_) record.colour = table_.colours_[order_[i]];
       return record;
@@ -59,7 +67,6 @@ class VoxelTable {
  private:
   std::size_t size() const;
   void set_limits();
-  void start_colours();
   std::size_t lane_sums(bool colours) const;
   std::size_t room() const;
   void close_up();

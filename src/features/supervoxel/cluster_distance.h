@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/prefetch.h"
 #include "features/supervoxel/clusters.h"
 #include "features/supervoxel/supervoxel_parameters.h"
 #include "features/supervoxel/voxel_features.h"
@@ -55,8 +56,8 @@ class NormalDistance {
   }
   /// What a distance of the voxel reads; colours seldom take part.
   void prefetch(std::uint32_t voxel) const {
-    __builtin_prefetch(&data_.features.normals[voxel]);
-    __builtin_prefetch(&data_.tile.positions[voxel]);
+    arris::prefetch(&data_.features.normals[voxel]);
+    arris::prefetch(&data_.tile.positions[voxel]);
   }
 
  private:
@@ -81,8 +82,8 @@ class HistogramDistance {
                      epsilon_ * shape * shape);
   }
   void prefetch(std::uint32_t voxel) const {
-    __builtin_prefetch(&data_.features.histograms[voxel]);
-    __builtin_prefetch(&data_.tile.positions[voxel]);
+    arris::prefetch(&data_.features.histograms[voxel]);
+    arris::prefetch(&data_.tile.positions[voxel]);
   }
 
  private:

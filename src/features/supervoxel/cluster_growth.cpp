@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "core/parallel.h"
+#include "core/prefetch.h"
 #include "features/supervoxel/cluster_distance.h"
 
 namespace arris {
@@ -99,11 +100,11 @@ class Growth {
   /// The frontier jumps about in memory: what the offers of the next ones touch is fetched meanwhile.
   void look_ahead(std::size_t i) const {
     const std::size_t end = frontier_.size();
-    if (i + 3 * kAhead < end) __builtin_prefetch(&tile_.neighbour_begin[frontier_[i + 3 * kAhead].voxel]);
-    if (i + 2 * kAhead < end) __builtin_prefetch(tile_.neighbours_of(frontier_[i + 2 * kAhead].voxel).data());
+    if (i + 3 * kAhead < end) prefetch(&tile_.neighbour_begin[frontier_[i + 3 * kAhead].voxel]);
+    if (i + 2 * kAhead < end) prefetch(tile_.neighbours_of(frontier_[i + 2 * kAhead].voxel).data());
     if (i + kAhead >= end) return;
     for (const std::uint32_t voxel : tile_.neighbours_of(frontier_[i + kAhead].voxel)) {
-      __builtin_prefetch(&state_[voxel], 1);
+      prefetch_to_write(&state_[voxel]);
       distance_.prefetch(voxel);
     }
   }

@@ -1,0 +1,132 @@
+#include "core/stages.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "core/parallel.h"
+
+namespace arris {
+namespace {
+
+/// Plain threads, as for tasks in the background: what is to be done is large, and who has nothing to do must leave its
+/// processor to the others, where threads of TBB would look for work again and again.
+class StageRun {
+ public:
+  StageRun(std::size_t places, const std::function<bool(std::size_t)>& fill, const std::vector<Stage>& stages)
+      : fill_(fill), stages_(stages), places_(places) {}
+
+  void run(std::size_t threads) {
+    std::vector<std::thread> others;
+    try {
+      for (std::size_t i = 1; i < threads; ++i) others.emplace_back([this] { work(); });
+    } catch (...) {
+      // Fewer threads do as well.
+    }
+    work();
+    for (std::thread& thread : others) thread.join();
+    if (error_) std::rethrow_exception(error_);
+    if (fill_error_) std::rethrow_exception(fill_error_);
+  }
+
+ private:
+  /// An item on its way: the stages it is through, and whether it is in the next one.
+  struct Progress {
+    std::size_t through = 0;
+    bool busy = false;
+  };
+  struct Step {
+    std::uint64_t item = 0;
+    bool fill = false;
+  };
+
+  void work() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      if (const std::optional<Step> step = next()) {
+        lock.unlock();
+        const bool filled = take(*step);
+        lock.lock();
+        end(*step, filled);
+        changed_.notify_all();
+      } else if (stopped_ || (ended_ && first_ == last_)) {
+        return;
+      } else {
+        changed_.wait(lock);
+      }
+    }
+  }
+
+  /// What has come furthest goes first: its place is wanted again.
+  std::optional<Step> next() {
+    if (stopped_) return std::nullopt;
+    for (std::uint64_t item = first_; item < last_; ++item) {
+      Progress& now = at(item);
+      if (now.busy || now.through == stages_.size()) continue;
+      const bool in_turn = stages_[now.through].order == StageOrder::kInTurn;
+      if (in_turn && item > first_ && at(item - 1).through <= now.through) continue;
+      now.busy = true;
+      return Step{item, false};
+    }
+    if (filling_ || ended_ || last_ - first_ == places_.size()) return std::nullopt;
+    filling_ = true;
+    return Step{last_, true};
+  }
+
+  /// True unless there was nothing to fill a place with, or an error.
+  bool take(const Step& step) {
+    const auto place = static_cast<std::size_t>(step.item % places_.size());
+    try {
+      if (step.fill) return fill_(place);
+      // Nobody else changes how far an item is that is busy.
+      stages_[places_[place].through].work(place);
+      return true;
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      std::exception_ptr& error = step.fill ? fill_error_ : error_;
+      if (!error) error = std::current_exception();
+      if (!step.fill) stopped_ = true;
+      return false;
+    }
+  }
+
+  void end(const Step& step, bool filled) {
+    if (!step.fill) {
+      at(step.item).busy = false;
+      ++at(step.item).through;
+    } else {
+      filling_ = false;
+      ended_ = !filled;
+      if (filled) at(last_++) = {};
+    }
+    while (first_ < last_ && at(first_).through == stages_.size()) ++first_;
+  }
+
+  Progress& at(std::uint64_t item) { return places_[static_cast<std::size_t>(item % places_.size())]; }
+
+  const std::function<bool(std::size_t)>& fill_;
+  const std::vector<Stage>& stages_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Progress> places_;
+  std::uint64_t first_ = 0, last_ = 0;  ///< Items that are on their way.
+  bool filling_ = false, ended_ = false, stopped_ = false;
+  std::exception_ptr error_, fill_error_;
+};
+
+}  // namespace
+
+void run_stages(std::size_t places, const std::function<bool(std::size_t place)>& fill,
+                const std::vector<Stage>& stages) {
+  const std::size_t threads = std::min<std::size_t>(static_cast<std::size_t>(loop_threads()), places);
+  if (threads > 1) return StageRun(places, fill, stages).run(threads);
+  while (fill(0)) {
+    for (const Stage& stage : stages) stage.work(0);
+  }
+}
+
+}  // namespace arris

@@ -1,0 +1,49 @@
+#include "tiling/voxel_stream.h"
+
+#include "core/stages.h"
+
+namespace arris::tiling {
+
+VoxelStream::VoxelStream(VoxelTable& table, const std::function<bool(VoxelPoints&)>& fill)
+    : table_(table), fill_(fill), batches_(table.lanes() + 2) {
+  for (Batch& batch : batches_) batch.looked_at.assign(table.lanes(), 0);
+}
+
+void VoxelStream::add(Batch& batch, std::size_t lane) {
+  std::size_t& looked_at = batch.looked_at[lane];
+  looked_at = table_.add_to_lane(lane, batch.points.positions, batch.points.colours, looked_at);
+  if (looked_at < batch.points.positions.size()) full_ = true;
+}
+
+/// Of batches that lanes did not come to the end of. False: the table is full again.
+bool VoxelStream::add_rest() {
+  full_ = false;
+  for (Batch& batch : batches_) {
+    for (std::size_t lane = 0; lane < table_.lanes(); ++lane) add(batch, lane);
+  }
+  return !full_;
+}
+
+bool VoxelStream::run() {
+  if (!add_rest()) return false;
+  if (ended_) return true;
+  std::vector<Stage> lanes;
+  for (std::size_t lane = 0; lane < table_.lanes(); ++lane) {
+    lanes.push_back({StageOrder::kInTurn, [this, lane](std::size_t place) {
+                       if (!full_) add(batches_[place], lane);
+                     }});
+  }
+  const auto fill = [this](std::size_t place) {
+    if (full_) return false;
+    Batch& batch = batches_[place];
+    batch.points.positions.clear();
+    batch.points.colours.clear();
+    batch.looked_at.assign(table_.lanes(), 0);
+    ended_ = !fill_(batch.points);
+    return !ended_;
+  };
+  run_stages(batches_.size(), fill, lanes);
+  return !full_;
+}
+
+}  // namespace arris::tiling
