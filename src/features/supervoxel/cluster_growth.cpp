@@ -135,7 +135,7 @@ class Growth {
     return true;
   }
 
-  static constexpr std::size_t kAhead = 6;
+  static constexpr std::size_t kAhead = 8;
 
   const VoxelTile& tile_;
   const Distance& distance_;
