@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "merge/frontier_walk.h"
 
 namespace arris::merge {
 namespace {
@@ -54,13 +55,12 @@ FrontierBlock SegmentFrontier::drop_interior(const PointLabels& labels, Part& pa
   FrontierBlock block, border;
   read(part, block);
   part.dropped.resize(block.size());
-  for (std::size_t i = 0; i < block.size(); ++i) {
-    const FrontierPoint p = block.point(i);
+  for_each_point(block, labels, [&](std::size_t i, const FrontierPoint& p) {
     const std::uint32_t own = labels[p.id];
     const auto same = [&](std::uint32_t neighbour) { return labels[neighbour] == own; };
     part.dropped[i] = own != 0 && std::all_of(p.neighbours.begin(), p.neighbours.end(), same);
     if (!part.dropped[i] && keeps) border.add(p);
-  }
+  });
   border.shrink_to_fit();
   return border;
 }
@@ -71,13 +71,14 @@ void SegmentFrontier::read(const Part& part, FrontierBlock& block) const {
   if (!decode_frontier(bytes, part.records, part.dropped, block)) file_.throw_damaged();
 }
 
-void SegmentFrontier::for_each_block(const std::function<void(const FrontierBlock&)>& use) const {
-  for (const FrontierBlock& block : kept_) use(block);
+void SegmentFrontier::for_each_blocks(const std::function<void(std::span<const FrontierBlock>)>& use) const {
+  for (std::size_t first = 0; first < kept_.size(); first += kPartsAtATime)
+    use(std::span(kept_).subspan(first, std::min(kPartsAtATime, kept_.size() - first)));
   std::vector<FrontierBlock> blocks(std::min(kPartsAtATime, parts_.size() - kept_.size()));
   for (std::size_t first = kept_.size(); first < parts_.size(); first += blocks.size()) {
     const std::size_t count = std::min(blocks.size(), parts_.size() - first);
     parallel_for_chunks(count, 1, [&](std::size_t begin, std::size_t) { read(parts_[first + begin], blocks[begin]); });
-    for (std::size_t i = 0; i < count; ++i) use(blocks[i]);
+    use(std::span(blocks).first(count));
   }
 }
 

@@ -31,8 +31,8 @@ class SegmentFrontier {
   /// @param most_bytes  memory that what is left may take: what does not fit is read from disk every time.
   void keep_border(const PointLabels& labels, std::uint64_t most_bytes = 0);
 
-  /// Calls use(block) for blocks that have all the points in turn. Blocks are read several at a time, in parallel.
-  void for_each_block(const std::function<void(const FrontierBlock& block)>& use) const;
+  /// Calls use(blocks) in turn for several blocks at a time, which have all the points together.
+  void for_each_blocks(const std::function<void(std::span<const FrontierBlock> blocks)>& use) const;
 
   std::uint64_t records() const { return records_; }
   std::uint64_t bytes_on_disk() const { return file_.size_bytes(); }

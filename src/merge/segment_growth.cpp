@@ -3,12 +3,19 @@
 #include <algorithm>
 #include <atomic>
 
+#include "core/parallel.h"
 #include "merge/group_numbers.h"
 
 namespace arris::merge {
 
 SegmentGrowth::SegmentGrowth(std::uint64_t points, std::uint32_t min_points)
-    : min_points_(min_points), labels_(points, 0) {}
+    : min_points_(min_points), labels_(points) {
+  constexpr std::size_t kGrain = 1 << 19;  // As many as a large page holds, which the system makes meanwhile.
+  parallel_for_chunks(labels_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::fill(labels_.begin() + static_cast<std::ptrdiff_t>(begin), labels_.begin() + static_cast<std::ptrdiff_t>(end),
+              0U);
+  });
+}
 
 void SegmentGrowth::add(const TileGrowth& tile) {
   std::uint32_t base = 0;

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include "core/parallel.h"
 #include "features/numerics/exact_math.h"
+#include "merge/frontier_walk.h"
 #include "merge/segment_sides.h"
 
 namespace arris::merge {
 namespace {
-
-constexpr std::size_t kGrain = 1024;
 
 struct Change {
   std::uint32_t id = 0;
@@ -114,10 +114,10 @@ void learn_sides_of(const FrontierPoint& point, const PointLabels& labels, Segme
 void learn_sides(const SegmentFrontier& frontier, const PointLabels& labels, const std::vector<SegmentPlane>& planes,
                  SegmentSides& sides) {
   std::mutex mutex;  // Guards `sides`.
-  frontier.for_each_block([&](const FrontierBlock& points) {
-    parallel_for_chunks(points.size(), kGrain, [&](std::size_t first, std::size_t last) {
+  frontier.for_each_blocks([&](std::span<const FrontierBlock> blocks) {
+    parallel_for_chunks(blocks.size(), 1, [&](std::size_t block, std::size_t) {
       SegmentSides found(planes);
-      for (std::size_t i = first; i < last; ++i) learn_sides_of(points.point(i), labels, found);
+      for_each_point(blocks[block], labels, [&](std::size_t, const FrontierPoint& point) { learn_sides_of(point, labels, found); });
       const std::lock_guard lock(mutex);
       sides.add(found);
     });
@@ -126,20 +126,20 @@ void learn_sides(const SegmentFrontier& frontier, const PointLabels& labels, con
 
 void find_changes(const Judge& judge, const SegmentFrontier& frontier, const PointLabels& labels,
                   tiling::ScratchFile& changes, const CancelToken& cancel) {
-  std::vector<std::uint32_t> decided;
-  std::vector<Change> block;
-  frontier.for_each_block([&](const FrontierBlock& points) {
+  std::vector<std::vector<Change>> of_block;
+  frontier.for_each_blocks([&](std::span<const FrontierBlock> blocks) {
     cancel.check();
-    decided.resize(points.size());
-    parallel_for_chunks(decided.size(), kGrain, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) decided[i] = judge.decide(points.point(i));
+    of_block.resize(blocks.size());
+    parallel_for_chunks(blocks.size(), 1, [&](std::size_t block, std::size_t) {
+      of_block[block].clear();
+      for_each_point(blocks[block], labels, [&](std::size_t, const FrontierPoint& point) {
+        const std::uint32_t decided = judge.decide(point);
+        if (decided != labels[point.id]) of_block[block].push_back({point.id, decided, point.position});
+      });
     });
-    block.clear();
-    for (std::size_t i = 0; i < decided.size(); ++i) {
-      const FrontierPoint point = points.point(i);
-      if (decided[i] != labels[point.id]) block.push_back({point.id, decided[i], point.position});
+    for (const std::vector<Change>& found : of_block) {
+      if (!found.empty()) changes.append(std::as_bytes(std::span(found)));
     }
-    if (!block.empty()) changes.append(std::as_bytes(std::span(block)));
   });
 }
 

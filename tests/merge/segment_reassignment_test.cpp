@@ -203,13 +203,15 @@ TEST(SegmentFrontier, KeepBorder_DropsWhatIsInsideOneSegment_WhateverFitsIntoMem
     gable.frontier.keep_border(gable.labels, most_bytes);
     EXPECT_EQ(gable.frontier.records(), 3U * Gable::kLength);
     std::vector<std::uint32_t> ids;
-    gable.frontier.for_each_block([&](const FrontierBlock& points) {
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const FrontierPoint p = points.point(i);
-        EXPECT_LE(std::abs(p.position.x), Gable::kStep);
-        EXPECT_GE(p.neighbours.size(), 3U);
-        ids.push_back(p.id);
-        ids.insert(ids.end(), p.neighbours.begin(), p.neighbours.end());
+    gable.frontier.for_each_blocks([&](std::span<const FrontierBlock> blocks) {
+      for (const FrontierBlock& points : blocks) {
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          const FrontierPoint p = points.point(i);
+          EXPECT_LE(std::abs(p.position.x), Gable::kStep);
+          EXPECT_GE(p.neighbours.size(), 3U);
+          ids.push_back(p.id);
+          ids.insert(ids.end(), p.neighbours.begin(), p.neighbours.end());
+        }
       }
     });
     if (most_bytes == 0) from_disk = ids;
