@@ -131,8 +131,10 @@ void VoxelAccumulator::add(std::span<const LatticePoint> positions, std::span<co
 }
 
 void VoxelAccumulator::add_all(const std::function<bool(VoxelPoints& points)>& fill) {
-  VoxelPoints first;  // With it the table knows whether there are colours.
-  if (!fill(first)) return;
+  VoxelPoints first;  // By it the table knows whether there are colours.
+  while (first.positions.empty()) {
+    if (!fill(first)) return;
+  }
   add(first.positions, first.colours);
   first = {};
   const std::function<bool(VoxelPoints&)> fill_counted = [&](VoxelPoints& points) {

@@ -61,6 +61,21 @@ void add_in_batches(VoxelAccumulator& accumulator, std::mt19937_64& random, std:
   }
 }
 
+/// The same as a stream, some of the batches empty.
+void add_as_stream(VoxelAccumulator& accumulator, std::mt19937_64& random, std::span<const LatticePoint> points,
+                   std::span<const RawColour> colours) {
+  accumulator.add_all([&](VoxelPoints& batch) {
+    if (points.empty()) return false;
+    const std::size_t size = std::min<std::size_t>(points.size(), random() % 3 ? random() % 700 : 0);
+    batch.positions.assign(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(size));
+    points = points.subspan(size);
+    if (colours.empty()) return true;
+    batch.colours.assign(colours.begin(), colours.begin() + static_cast<std::ptrdiff_t>(size));
+    colours = colours.subspan(size);
+    return true;
+  });
+}
+
 /// Enough voxels that several threads sort them, that runs are written behind and that the store is filled in parts.
 TEST(VoxelAccumulator, SeveralThreads_GiveTheVoxelsOfOne) {
   std::mt19937_64 random(31);
@@ -73,7 +88,12 @@ TEST(VoxelAccumulator, SeveralThreads_GiveTheVoxelsOfOne) {
     const ThreadLimit limit(threads);
     VoxelAccumulator accumulator(VoxelGrid(30), {folder.path(), table_bytes, ~std::uint64_t{0}, likely_voxels});
     accumulator.add(points, colours);
-    return all_voxels(accumulator.finish());
+    const std::vector<Voxel> voxels = all_voxels(accumulator.finish());
+    const test::TempFolder other;
+    VoxelAccumulator streamed(VoxelGrid(30), {other.path(), table_bytes, ~std::uint64_t{0}, likely_voxels});
+    add_as_stream(streamed, random, points, colours);
+    EXPECT_EQ(all_voxels(streamed.finish()), voxels);
+    return voxels;
   };
   const std::vector<Voxel> expected = voxels_by(1, 64 << 20, 0);
   ASSERT_GT(expected.size(), 150'000U);
@@ -92,6 +112,8 @@ RC_GTEST_PROP(VoxelAccumulator, AnyCloudOrderBatchesAndTable_GivesTheVoxelsOfThe
   const auto table_bytes = *rc::gen::element<std::size_t>(1500, 4096, 40'000, 300'000, 1 << 20).as("table bytes");
   const bool coloured = *rc::gen::arbitrary<bool>().as("coloured");
   const auto seed = *rc::gen::arbitrary<std::uint64_t>().as("order seed");
+  const ThreadLimit limit(*rc::gen::element(1, 2, 4).as("threads"));
+  const auto streamed = *rc::gen::arbitrary<bool>().as("streamed");
   std::mt19937_64 random(seed);
   if (random() % 2) std::ranges::shuffle(points, random);
   const auto colours = coloured ? random_colours(random, points.size()) : std::vector<RawColour>{};
@@ -99,7 +121,11 @@ RC_GTEST_PROP(VoxelAccumulator, AnyCloudOrderBatchesAndTable_GivesTheVoxelsOfThe
   const test::TempFolder folder;
   {
     VoxelAccumulator accumulator(VoxelGrid(side), {folder.path(), table_bytes});
-    add_in_batches(accumulator, random, points, colours);
+    if (streamed) {
+      add_as_stream(accumulator, random, points, colours);
+    } else {
+      add_in_batches(accumulator, random, points, colours);
+    }
     const VoxelStore store = accumulator.finish();
     const auto expected = test::voxels_of(side, points, colours);
     RC_ASSERT(store.size() == expected.size());
