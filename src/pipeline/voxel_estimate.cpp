@@ -58,9 +58,8 @@ class CubesOfCell {
 double count_of_cubes(const tiling::CellCounts& counts, std::int64_t side_steps, std::uint64_t parts = 1) {
   const CubesOfCell cubes(counts.level(), side_steps);
   double sum = 0.0;
-  counts.for_each_by_leaf([&](const LatticeBox&, std::uint64_t points) {
-    sum += static_cast<double>(parts) * cubes(static_cast<double>(points) / static_cast<double>(parts));
-  });
+  for (const auto& [points, cells] : counts.classes())
+    sum += static_cast<double>(cells * parts) * cubes(static_cast<double>(points) / static_cast<double>(parts));
   return sum;
 }
 
@@ -76,9 +75,8 @@ double count_of_leftovers(const tiling::CellCounts& counts, const SupervoxelScal
                           const SupervoxelScale& scale) {
   const CubesOfCell before(counts.level(), finer.voxel_steps), cubes(counts.level(), scale.voxel_steps);
   double sum = 0.0;
-  counts.for_each_by_leaf([&](const LatticeBox&, std::uint64_t points) {
-    sum += before.lonely(points) * cubes(static_cast<double>(points));
-  });
+  for (const auto& [points, cells] : counts.classes())
+    sum += static_cast<double>(cells) * before.lonely(points) * cubes(static_cast<double>(points));
   return sum;
 }
 

@@ -172,6 +172,29 @@ std::size_t CellCounts::remove(std::span<const LatticePoint> points,
   return missing;
 }
 
+std::vector<CellClass> CellCounts::classes() const {
+  constexpr std::size_t kFew = 4096;
+  std::vector<std::uint64_t> with_few(kFew);  // Nearly all cells, by their points.
+  std::map<std::uint64_t, std::uint64_t> with_many;
+  for (const CellLeaf* leaf : leaves_of(*impl_->tree)) {
+    for (auto value = leaf->cbeginValueOn(); value; ++value) {
+      const auto stored = static_cast<std::uint64_t>(*value);
+      if (impl_->overflow.empty() && stored < kFew) {
+        ++with_few[stored];
+        continue;
+      }
+      const openvdb::Coord at = value.getCoord();
+      ++with_many[stored + impl_->carried({at.x(), at.y(), at.z()})];
+    }
+  }
+  for (std::size_t points = 0; points < kFew; ++points) {
+    if (with_few[points] > 0) with_many[points] += with_few[points];
+  }
+  std::vector<CellClass> classes;
+  for (const auto& [points, cells] : with_many) classes.push_back({points, cells});
+  return classes;
+}
+
 std::uint64_t CellCounts::count_at(const LatticePoint& position) const {
   const int level = impl_->level;
   const Cell cell = cell_of(position, level);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "core/lattice.h"
 
@@ -13,6 +14,12 @@ namespace arris::tiling {
 
 /// Of CellCounts, unless told otherwise.
 constexpr std::size_t kMostCellLeaves = 8192;
+
+/// Cells that have the same number of points.
+struct CellClass {
+  std::uint64_t points = 0;  ///< In each.
+  std::uint64_t cells = 0;
+};
 
 /// Counts points in cells of 2^level lattice steps (cell c covers [c << level, (c + 1) << level) per axis). Starts fine
 /// and coarsens by a factor of two whenever more than max_leaves leaves (of 8x8x8 cells) are active. The final level
@@ -42,6 +49,8 @@ class CellCounts {
   int level() const;
   std::uint64_t total() const;
   std::size_t active_cells() const;
+  /// All non-empty cells by their points, ascending. O(cells).
+  std::vector<CellClass> classes() const;
   /// Points in the cell that contains `position`.
   std::uint64_t count_at(const LatticePoint& position) const;
   /// A copy at a level >= level(), with the same total.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace arris::tiling {
 namespace {
@@ -11,14 +10,10 @@ constexpr int kCoarsestLevel = 30;
 
 /// Lower median over points of the count of their cell.
 std::uint64_t median_count(const CellCounts& counts) {
-  std::vector<std::uint64_t> cells;
-  cells.reserve(counts.active_cells());
-  counts.for_each_by_leaf([&](const LatticeBox&, std::uint64_t count) { cells.push_back(count); });
-  std::ranges::sort(cells);
   std::uint64_t below = 0;
-  for (const std::uint64_t count : cells) {
-    below += count;
-    if (below >= counts.total() - counts.total() / 2) return count;
+  for (const CellClass& of : counts.classes()) {
+    below += of.points * of.cells;
+    if (below >= counts.total() - counts.total() / 2) return of.points;
   }
   return 0;
 }

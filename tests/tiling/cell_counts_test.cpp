@@ -51,6 +51,24 @@ Cells listed(const CellCounts& counts) {
   return cells;
 }
 
+/// Cells by their points.
+std::map<std::uint64_t, std::uint64_t> classes_of(const Cells& cells) {
+  std::map<std::uint64_t, std::uint64_t> classes;
+  for (const auto& [cell, count] : cells) ++classes[count];
+  return classes;
+}
+
+std::map<std::uint64_t, std::uint64_t> classes_of(const CellCounts& counts) {
+  std::map<std::uint64_t, std::uint64_t> classes;
+  std::uint64_t last = 0;
+  for (const CellClass& of : counts.classes()) {
+    EXPECT_LT(last, of.points) << "classes ascend, and no cell is empty";
+    last = of.points;
+    classes[of.points] = of.cells;
+  }
+  return classes;
+}
+
 RC_GTEST_PROP(CellCounts, AnyCloud_CountsAsBruteForceOnTheFinestLevelThatFits, ()) {
   const auto points = test::any_cloud(1, 600);
   const auto max_leaves = *rc::gen::inRange<std::size_t>(1, 100).as("max leaves");
@@ -65,6 +83,7 @@ RC_GTEST_PROP(CellCounts, AnyCloud_CountsAsBruteForceOnTheFinestLevelThatFits, (
   const Cells expected = brute_force(points, level);
   RC_ASSERT(counts.active_cells() == expected.size());
   RC_ASSERT(listed(counts) == expected);
+  RC_ASSERT(classes_of(counts) == classes_of(expected));
   RC_ASSERT(counts.count_at(points.front()) == expected.at(cell_of(points.front(), level)));
 }
 
@@ -155,6 +174,7 @@ TEST(CellCounts, CountBeyondInt32_StaysExact) {
   counts.add(one);  // Exactly 2^30.
   EXPECT_EQ(counts.count_at({7, 7, 7}), kMany);
   EXPECT_EQ(counts.count_at({6, 7, 7}), std::uint64_t{1} << 30);
+  EXPECT_EQ(classes_of(counts), classes_of(listed(counts))) << "of many points each";
   EXPECT_EQ(counts.coarsened(1).count_at({7, 7, 7}), kMany + (std::uint64_t{1} << 30));
   EXPECT_EQ(counts.remove(one, [](const LatticeBox&) { FAIL() << "the cell is far from empty"; }), 0U);
   EXPECT_EQ(counts.count_at({6, 7, 7}), (std::uint64_t{1} << 30) - 1);
