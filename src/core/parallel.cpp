@@ -10,32 +10,52 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
+
+#include "core/chunk_parts.h"
 
 namespace arris {
 namespace {
 
-/// Bodies of one loop until one throws. The loop itself never sees an exception: TBB would then cancel loops nested in
-/// bodies that still run, also those of destructors, and OpenVDB would leak the nodes of a tree that it frees there.
-class LoopBodies {
+/// One loop, until a body throws. TBB never sees an exception: it would then cancel loops nested in bodies that still
+/// run, also those of destructors, and OpenVDB would leak the nodes of a tree that it frees there.
+class SharedLoop {
  public:
-  void run(const std::function<void(std::size_t, std::size_t)>& body, std::size_t begin, std::size_t end) {
+  using Body = std::function<void(std::size_t begin, std::size_t end)>;
+  SharedLoop(std::size_t count, std::size_t grain, std::size_t threads, const Body& body)
+      : count_(count),
+        grain_(grain),
+        chunks_(count / grain + (count % grain != 0)),
+        parts_(chunks_, threads),
+        body_(body) {}
+
+  std::size_t chunks() const { return chunks_; }
+  /// What the calling thread finds to do.
+  void work(std::size_t thread) {
+    while (const std::optional<std::size_t> chunk = parts_.take(thread)) run(*chunk * grain_);
+  }
+  /// Call it once all threads are through.
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  void run(std::size_t begin) {
     if (failed_) return;
     try {
-      body(begin, end);
+      body_(begin, std::min(count_, begin + grain_));
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!error_) error_ = std::current_exception();
       failed_ = true;
     }
   }
-  /// Call it once all bodies are done.
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
-  }
 
- private:
+  std::size_t count_, grain_, chunks_;
+  ChunkParts parts_;
+  const Body& body_;
   std::atomic<bool> failed_{false};
   std::mutex mutex_;
   std::exception_ptr error_;
@@ -82,19 +102,13 @@ int loop_threads() {
 void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body) {
   grain = std::max<std::size_t>(grain, 1);
-  if (on_own_thread) return run_chunks(count, grain, body);
-  std::atomic<std::size_t> next{0};
-  LoopBodies bodies;
-  const auto work = [&] {
-    for (std::size_t begin = next.fetch_add(grain); begin < count; begin = next.fetch_add(grain)) {
-      bodies.run(body, begin, std::min(count, begin + grain));
-    }
-  };
+  if (on_own_thread || count <= grain) return run_chunks(count, grain, body);
+  SharedLoop loop(count, grain, static_cast<std::size_t>(loop_threads()), body);
   std::vector<std::thread> threads;
-  for (int i = 1; i < loop_threads(); ++i) threads.emplace_back(work);
-  work();
+  for (int i = 1; i < loop_threads(); ++i) threads.emplace_back([&loop, i] { loop.work(static_cast<std::size_t>(i)); });
+  loop.work(0);
   for (std::thread& thread : threads) thread.join();
-  bodies.rethrow();
+  loop.rethrow();
 }
 #else
 namespace {
@@ -128,19 +142,17 @@ int loop_threads() {
 void parallel_for_chunks(std::size_t count, std::size_t grain,
                          const std::function<void(std::size_t begin, std::size_t end)>& body) {
   grain = std::max<std::size_t>(grain, 1);
-  if (on_own_thread) return run_chunks(count, grain, body);
-  const std::size_t chunks = count / grain + (count % grain != 0);
-  LoopBodies bodies;
-  const auto loop = [&] {
+  if (on_own_thread || count <= grain) return run_chunks(count, grain, body);
+  const auto threads = static_cast<std::size_t>(arena().max_concurrency());
+  SharedLoop loop(count, grain, threads, body);
+  arena().execute([&] {
     tbb::this_task_arena::isolate([&] {
-      tbb::parallel_for(std::size_t{0}, chunks,
-                        [&](std::size_t chunk) {
-                          bodies.run(body, chunk * grain, std::min(count, (chunk + 1) * grain));
-                        });
+      tbb::parallel_for(std::size_t{0}, std::min(threads, loop.chunks()), [&](std::size_t) {
+        loop.work(static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()) % threads);
+      });
     });
-  };
-  arena().execute(loop);
-  bodies.rethrow();
+  });
+  loop.rethrow();
 }
 #endif
 

@@ -3,14 +3,39 @@
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
+#include "core/chunk_parts.h"
+
 namespace arris {
 namespace {
+
+TEST(ChunkParts, EveryChunk_IsTakenOnce_OwnPartsFirstAndThenTheEndsOfOthers) {
+  ChunkParts parts(7, 3);  // 0 1 2, 3 4, 5 6
+  std::vector<std::size_t> taken;
+  for (const std::size_t own : {1U, 1U, 1U, 0U, 2U, 1U, 1U}) taken.push_back(parts.take(own).value());
+  EXPECT_EQ(taken, (std::vector<std::size_t>{3, 4, 6, 0, 5, 2, 1}));
+  for (const std::size_t own : {0U, 1U, 2U}) EXPECT_FALSE(parts.take(own).has_value());
+}
+
+TEST(ChunkParts, FewerChunksThanParts_AreTakenOnceByAnyone) {
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{3}}) {
+    ChunkParts parts(count, 8);
+    std::vector<std::size_t> taken;
+    while (const auto chunk = parts.take(5)) taken.push_back(*chunk);
+    std::ranges::sort(taken);
+    std::vector<std::size_t> all(count);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    EXPECT_EQ(taken, all);
+  }
+}
+
 
 TEST(ParallelForChunks, EveryIndex_IsVisitedOnceInFixedChunks) {
   for (const std::size_t count : {0U, 1U, 7U, 8U, 1000U}) {
