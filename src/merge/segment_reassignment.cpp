@@ -117,7 +117,8 @@ void learn_sides(const SegmentFrontier& frontier, const PointLabels& labels, con
   frontier.for_each_blocks([&](std::span<const FrontierBlock> blocks) {
     parallel_for_chunks(blocks.size(), 1, [&](std::size_t block, std::size_t) {
       SegmentSides found(planes);
-      for_each_point(blocks[block], labels, [&](std::size_t, const FrontierPoint& point) { learn_sides_of(point, labels, found); });
+      for_each_point(blocks[block], labels,
+                     [&](std::size_t, const FrontierPoint& point) { learn_sides_of(point, labels, found); });
       const std::lock_guard lock(mutex);
       sides.add(found);
     });

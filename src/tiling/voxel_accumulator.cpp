@@ -49,7 +49,8 @@ struct VoxelAccumulator::Impl {
 
   void look_at(std::span<const LatticePoint> positions, std::span<const RawColour> colours) {
     points += positions.size();
-    for (const RawColour& colour : colours) largest_colour = std::max({largest_colour, colour[0], colour[1], colour[2]});
+    for (const RawColour& colour : colours)
+      largest_colour = std::max({largest_colour, colour[0], colour[1], colour[2]});
   }
   std::unique_ptr<VoxelRun> new_run(bool colours) {
     return std::make_unique<VoxelRun>(folder / fmt::format("voxels-{}.run", runs_made++), colours, write_bytes);

@@ -30,8 +30,8 @@ class VoxelTable {
   /// @param colours  as many as positions, or none.
   bool add(std::span<const LatticePoint> positions, std::span<const RawColour> colours);
   std::size_t lanes() const { return lanes_.size(); }
-  /// Adds the points of one lane's voxels, from `from` on; returns where it stopped, before the end if the lane is full.
-  /// Different lanes may be added to at the same time, colours only after start_colours().
+  /// Adds the points of one lane's voxels, from `from` on; returns where it stopped, before the end if the lane is
+  /// full. Different lanes may be added to at the same time, colours only after start_colours().
   std::size_t add_to_lane(std::size_t lane, std::span<const LatticePoint> positions, std::span<const RawColour> colours,
                           std::size_t from);
   /// Makes room for them if there is none yet.

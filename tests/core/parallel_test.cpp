@@ -36,7 +36,6 @@ TEST(ChunkParts, FewerChunksThanParts_AreTakenOnceByAnyone) {
   }
 }
 
-
 TEST(ParallelForChunks, EveryIndex_IsVisitedOnceInFixedChunks) {
   for (const std::size_t count : {0U, 1U, 7U, 8U, 1000U}) {
     std::vector<std::atomic<int>> visits(count);

@@ -126,9 +126,8 @@ TEST(Stages, Loops_MayRunInside) {
                         for (std::size_t i = begin; i < end; ++i) items[place][i] += static_cast<int>(i);
                       });
                     }};
-  const Stage add{StageOrder::kInTurn, [&](std::size_t place) {
-                    sum += std::accumulate(items[place].begin(), items[place].end(), 0L);
-                  }};
+  const Stage add{StageOrder::kInTurn,
+                  [&](std::size_t place) { sum += std::accumulate(items[place].begin(), items[place].end(), 0L); }};
   run_stages(items.size(), fill, {count, add});
   EXPECT_EQ(sum, 50L * 499'500 + 1000L * 1275);
 }
