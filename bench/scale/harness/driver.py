@@ -24,7 +24,7 @@ def parse(arguments):
     parser.add_argument("--peer-memory-gib", type=float, default=20, help="address space of a peer")
     parser.add_argument("--runs", type=int, default=3, help="medians are of so many, in turn (default: %(default)s)")
     parser.add_argument("--memory", default="1GiB", help="budget of arris (default: %(default)s)")
-    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--threads", type=int, nargs="+", default=[1], help="of arris, each in every turn; of peers the first")
     parser.add_argument("--only", default="", help="jobs whose task or name has this in it")
     return parser.parse_args(arguments)
 
@@ -35,6 +35,9 @@ def measure(job, places, settings):
     if os.path.exists(told):
         os.remove(told)
     limit = round(settings.peer_memory_gib * GIB) if job.peer else None
+    out = os.path.join(places.work, "out.las")
+    if os.path.exists(out):  # Its pages would be given up while others are written.
+        os.remove(out)
     record = run(job.command, places.temp, limit, job.environment)
     if not job.peer:
         with open(told) as file:
@@ -56,26 +59,29 @@ def measure_all(cloud, places, settings):
     runs, failed = {}, {}
     for turn in range(settings.runs):
         for job in jobs:
-            if job.name in failed:
+            key = job.name, job.threads
+            if key in failed:
                 continue
             if not job.available:
-                failed[job.name] = "not built or not installed"
+                failed[key] = "not built or not installed"
                 continue
             try:
                 record = measure(job, places, settings)
             except Failure as failure:
-                failed[job.name] = str(failure)
+                failed[key] = str(failure)
                 continue
-            runs.setdefault(job.name, []).append(record)
-            print(f"{cloud.millions:g} M, {job.name}: {record['cpu_s']:.2f} CPU s, {record['wall_s']:.2f} s, "
+            runs.setdefault(key, []).append(record)
+            print(f"{cloud.millions:g} M, {job.name}, {job.threads} thr.: {record['cpu_s']:.2f} CPU s, {record['wall_s']:.2f} s, "
                   f"{record['peak_mib']:.0f} MiB", flush=True)
     for job in jobs:
-        base = {"task": job.task, "name": job.name, "peer": job.peer, "millions": cloud.millions, "points": cloud.points}
-        if job.name in failed:
-            print(f"{cloud.millions:g} M, {job.name}: {failed[job.name]}", flush=True)
-            yield {**base, "failed": failed[job.name]}
+        key = job.name, job.threads
+        base = {"task": job.task, "name": job.name, "peer": job.peer, "threads": job.threads,
+                "millions": cloud.millions, "points": cloud.points}
+        if key in failed:
+            print(f"{cloud.millions:g} M, {job.name}: {failed[key]}", flush=True)
+            yield {**base, "failed": failed[key]}
         else:
-            yield {**base, "runs": len(runs[job.name]), **median_of(runs[job.name])}
+            yield {**base, "runs": runs[key], **median_of(runs[key])}
 
 
 def main(arguments):

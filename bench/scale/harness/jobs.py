@@ -10,6 +10,7 @@ class Job:
     name: str
     command: list
     peer: bool = True
+    threads: int = 1
     most_millions: float = float("inf")  # Takes too long for more.
     environment: dict = field(default_factory=dict)
 
@@ -20,34 +21,37 @@ class Job:
 
 def jobs_for(cloud, places, settings):
     """@param cloud  has path and spacing. @param places  has bin, work and here."""
-    threads = str(settings.threads)
+    threads = str(settings.threads[0])
     out = os.path.join(places.work, "out.las")
 
     def arris(task, *options):
+        """With every number of threads."""
         verb, *more = options
         command = [os.path.join(places.bin, "arris"), verb, cloud.path, "-o", out, "--overwrite", "-q", *more]
-        command += ["--threads", threads, "--memory", settings.memory, "--temp-dir", places.temp]
+        command += ["--memory", settings.memory, "--temp-dir", places.temp]
         command += ["--report", os.path.join(places.work, "report.json")]
-        return Job(task, "arris " + " ".join(options), command, peer=False)
+        return [Job(task, "arris " + " ".join(options), command + ["--threads", str(count)], False, count)
+                for count in settings.threads]
 
     def peer(task, name, program, *arguments, **environment):
-        return Job(task, name, [os.path.join(places.bin, program), cloud.path, *arguments], environment=environment)
+        return Job(task, name, [os.path.join(places.bin, program), cloud.path, *arguments],
+                   threads=settings.threads[0], environment=environment)
 
     radius = f"{3.1 * cloud.spacing:.6g}"  # Holds 30 points of a surface.
     open3d = [os.path.join(places.here, "open3d_boundary.py"), cloud.path, radius]
     return [
-        arris("contours", "extract", "--method", "arris"),
-        arris("contours", "extract", "--method", "liu"),
-        arris("contours", "extract", "--method", "zheng"),
+        *arris("contours", "extract", "--method", "arris"),
+        *arris("contours", "extract", "--method", "liu"),
+        *arris("contours", "extract", "--method", "zheng"),
         peer("contours", "PCL normals (16) + boundary (30)", "bench_pcl_peer", threads),
         Job("contours", "Open3D normals (16) + boundary (30)", ["/usr/bin/python3", *open3d],
-            most_millions=5, environment={"OMP_NUM_THREADS": threads}),
-        arris("segments", "segment", "-k", "30"),
-        arris("segments", "segment"),
+            threads=settings.threads[0], most_millions=5, environment={"OMP_NUM_THREADS": threads}),
+        *arris("segments", "segment", "-k", "30"),
+        *arris("segments", "segment"),
         peer("segments", "PCL normals (16) + region growing (30)", "bench_pcl_segment", "30", "7.2", "0.2", "20",
              out, "--normal-neighbours", "16", "--threads", threads),
         peer("segments", "CGAL normals (16) + region growing (30)", "bench_cgal_segment", "16", "30", "7.2",
              f"{cloud.spacing:.6g}", "20"),
-        arris("supervoxels", "supervoxel", "--voxel", "0.03", "--seed", "0.4"),
+        *arris("supervoxels", "supervoxel", "--voxel", "0.03", "--seed", "0.4"),
         peer("supervoxels", "PCL supervoxels", "bench_pcl_supervoxel", "0.03", "0.4", out),
     ]

@@ -7,23 +7,47 @@ matplotlib.use("Agg")
 matplotlib.rcParams["svg.hashsalt"] = "arris"
 from matplotlib import pyplot  # noqa: E402  (after the backend is chosen)
 
-HEAD = ["points", "task", "program", "CPU s", "µs per point", "wall s", "peak MiB", "temporary B per point",
-        "CPU, peer / arris", "memory, peer / arris"]
+HEAD = ["points", "task", "program", "threads", "CPU s", "µs per point", "wall s", "wall, first / these threads",
+        "peak MiB", "foretold / measured", "temporary B per point", "foretold / measured", "CPU, peer / arris",
+        "memory, peer / arris"]
 
 
 def table(records):
     lines = ["| " + " | ".join(HEAD) + " |", "|--:|---|---|" + "--:|" * (len(HEAD) - 3)]
     for r in records:
-        cells = [f"{r['millions']:g} M", r["task"], f"`{r['name']}`" if not r["peer"] else r["name"]]
+        cells = [f"{r['millions']:g} M", r["task"], f"`{r['name']}`" if not r["peer"] else r["name"],
+                 str(r["threads"])]
         if "failed" in r:
-            cells += [r["failed"]] + [""] * (len(HEAD) - 4)
+            cells += [r["failed"]] + [""] * (len(HEAD) - 5)
         else:
             own = None if not r["peer"] else best_own(records, r)
             cells += [f"{r['cpu_s']:.1f}", f"{1e6 * r['cpu_s'] / r['points']:.2f}", f"{r['wall_s']:.1f}",
-                      f"{r['peak_mib']:.0f}", "" if r["peer"] else f"{r['temp_bytes'] / r['points']:.1f}",
-                      ratio(r, own, "cpu_s"), ratio(r, own, "peak_mib")]
+                      speed_up(records, r), f"{r['peak_mib']:.0f}"]
+            cells += ["", "", ""] if r["peer"] else [
+                foretold(r, lambda run: run["predicted_peak_mib"] / run["peak_mib"]),
+                f"{r['temp_bytes'] / r['points']:.1f}",
+                foretold(r, lambda run: run["predicted_temp_bytes"] / max(1, run["temp_bytes"]))]
+            cells += [ratio(r, own, "cpu_s"), ratio(r, own, "peak_mib")]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
+
+
+def speed_up(records, record):
+    """Of medians, and between pairs of runs of the same turn; nothing for the first number of threads."""
+    for first in records:
+        if (first["name"], first["millions"]) == (record["name"], record["millions"]):
+            break
+    if first is record or "failed" in first:
+        return ""
+    pairs = [a["wall_s"] / b["wall_s"] for a, b in zip(first["runs"], record["runs"])]
+    return f"{first['wall_s'] / record['wall_s']:.2f} ({min(pairs):.2f} to {max(pairs):.2f})"
+
+
+def foretold(record, quotient):
+    """From the least to the largest of the runs."""
+    found = [quotient(run) for run in record["runs"]]
+    least, largest = f"{min(found):.2f}", f"{max(found):.2f}"
+    return least if least == largest else f"{least} to {largest}"
 
 
 def best_own(records, peer):
@@ -40,7 +64,7 @@ def ratio(peer, own, key):
 
 def plot(records, path):
     figure, axes = pyplot.subplots(1, 2, figsize=(11.0, 5.2))
-    known = [r for r in records if "failed" not in r]
+    known = [r for r in records if "failed" not in r and r["threads"] == records[0]["threads"]]
     for number, name in enumerate(dict.fromkeys((r["task"], r["name"]) for r in known)):
         part = [r for r in known if (r["task"], r["name"]) == name]
         style = {"marker": "o", "markersize": 3.5, "linestyle": "--" if part[0]["peer"] else "-", "color": pyplot.cm.tab20(number)}
