@@ -92,7 +92,7 @@ double likely_waiting_bytes(const TileJob& job, const TileNeeds& needs, double p
 
 /// Tiles are not all at their peak together. Measured.
 double likely_tiles_bytes(const TileJob& job, int analyses) {
-  constexpr double kWhileBuilt = 0.36;  // Of its bound, of a tile that waits for its turn.
+  constexpr double kWhileBuilt = 0.335;  // Of its bound, of a tile that waits for its turn.
   const Likely likely = likely_of(job);
   double bytes = likely.of_scratch * static_cast<double>(job.memory.scratch_bytes) + likely.buffers_bytes;
   int tile = 0;
