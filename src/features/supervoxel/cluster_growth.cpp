@@ -1,9 +1,8 @@
 #include "features/supervoxel/cluster_growth.h"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
-#include <mutex>
+#include <vector>
 
 #include "core/parallel.h"
 #include "core/prefetch.h"
@@ -12,7 +11,6 @@
 namespace arris {
 namespace {
 
-constexpr std::size_t kGrain = 1024;             // Of the frontier.
 constexpr std::size_t kSweepGrain = 128 * 1024;  // Of all voxels.
 constexpr std::uint64_t kFree = ~std::uint64_t{0};
 
@@ -28,26 +26,23 @@ std::uint32_t cluster_of(std::uint64_t state) {
   return static_cast<std::uint32_t>(state);
 }
 
-/// A state as several threads see it, and as one does: what is locked waits for memory.
-template <bool kAlone>
-struct State {
-  std::uint64_t& state;
-  std::uint64_t now() const {
-    if constexpr (kAlone) return state;
-    return std::atomic_ref(state).load(std::memory_order_relaxed);
-  }
-  /// False, and `now` anew, if another thread was faster.
-  bool change(std::uint64_t& now, std::uint64_t to) const {
-    if constexpr (!kAlone) return std::atomic_ref(state).compare_exchange_weak(now, to, std::memory_order_relaxed);
-    state = to;
-    return true;
-  }
-};
+/// Parts that threads share: a few for each, as fronts are longer in some than in others, of not too few voxels.
+std::size_t part_count(std::size_t voxels) {
+  constexpr std::size_t kPartsPerThread = 8, kLeastVoxels = 4096;
+  const auto threads = static_cast<std::size_t>(loop_threads());
+  return threads == 1 ? 1 : std::clamp<std::size_t>(voxels / kLeastVoxels, 1, kPartsPerThread * threads);
+}
 
+/// Voxels come in Z-order, so parts of them one after the other are compact. Each part is changed by one thread at a
+/// time: what its voxels offer to those of other parts is put down, and taken when all have offered. Which offer wins
+/// does not depend on the order of offers.
 template <class Distance>
 class Growth {
  public:
-  Growth(const VoxelTile& tile, const Distance& distance) : tile_(tile), distance_(distance) {
+  Growth(const VoxelTile& tile, const Distance& distance)
+      : tile_(tile), distance_(distance), parts_(part_count(tile.size())) {
+    part_voxels_ = static_cast<std::uint32_t>((tile.size() + parts_.size() - 1) / parts_.size());
+    for (Part& part : parts_) part.sent.resize(parts_.size());
     state_.resize(tile.size());
     touched_.resize(tile.size());
     parallel_for_chunks(tile.size(), kSweepGrain, [&](std::size_t begin, std::size_t end) {
@@ -59,34 +54,19 @@ class Growth {
   void seed(std::span<const TileSeed> seeds) {
     for (const TileSeed& s : seeds) {
       state_[s.voxel] = seed_state(s.cluster);
-      frontier_.push_back(s);
+      parts_[part_of(s.voxel)].frontier.push_back(s);
     }
   }
 
   /// One level: offers of the frontier, which then is what they won.
   void advance() {
-    won_.clear();
-    if (loop_threads() == 1 || frontier_.size() <= kGrain) {
-      for (std::size_t i = 0; i < frontier_.size(); ++i) make_offers<true>(i, won_);
-    } else {
-      std::mutex mutex;
-      parallel_for_chunks(frontier_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        PageVector<std::uint32_t> mine;
-        for (std::size_t i = begin; i < end; ++i) make_offers<false>(i, mine);
-        const std::lock_guard lock(mutex);
-        won_.insert(won_.end(), mine.begin(), mine.end());
-      });
-    }
-    frontier_.resize(won_.size());
-    parallel_for_chunks(won_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        frontier_[i] = {won_[i], cluster_of(state_[won_[i]])};
-        touched_[won_[i]] = 0;
-      }
-    });
+    parallel_for_chunks(parts_.size(), 1, [&](std::size_t part, std::size_t) { make_offers(part); });
+    parallel_for_chunks(parts_.size(), 1, [&](std::size_t part, std::size_t) { take_offers(part); });
   }
 
-  bool done() const { return frontier_.empty(); }
+  bool done() const {
+    return std::ranges::all_of(parts_, [](const Part& part) { return part.frontier.empty(); });
+  }
 
   PageVector<std::uint32_t> clusters() const {
     PageVector<std::uint32_t> result(state_.size());
@@ -97,52 +77,80 @@ class Growth {
   }
 
  private:
+  struct Offer {
+    std::uint64_t state;
+    std::uint32_t voxel;
+  };
+  struct alignas(64) Part {
+    PageVector<TileSeed> frontier;
+    PageVector<std::uint32_t> won;        ///< At this level.
+    std::vector<PageVector<Offer>> sent;  ///< To every part.
+  };
+
+  std::size_t part_of(std::uint32_t voxel) const { return parts_.size() == 1 ? 0 : voxel / part_voxels_; }
+
   /// The frontier jumps about in memory: what the offers of the next ones touch is fetched meanwhile.
-  void look_ahead(std::size_t i) const {
-    const std::size_t end = frontier_.size();
-    if (i + 3 * kAhead < end) prefetch(&tile_.neighbour_begin[frontier_[i + 3 * kAhead].voxel]);
-    if (i + 2 * kAhead < end) prefetch(tile_.neighbours_of(frontier_[i + 2 * kAhead].voxel).data());
+  void look_ahead(const PageVector<TileSeed>& frontier, std::size_t i) const {
+    const std::size_t end = frontier.size();
+    if (i + 3 * kAhead < end) prefetch(&tile_.neighbour_begin[frontier[i + 3 * kAhead].voxel]);
+    if (i + 2 * kAhead < end) prefetch(tile_.neighbours_of(frontier[i + 2 * kAhead].voxel).data());
     if (i + kAhead >= end) return;
-    for (const std::uint32_t voxel : tile_.neighbours_of(frontier_[i + kAhead].voxel)) {
+    for (const std::uint32_t voxel : tile_.neighbours_of(frontier[i + kAhead].voxel)) {
       prefetch_to_write(&state_[voxel]);
       distance_.prefetch(voxel);
     }
   }
 
-  template <bool kAlone>
-  void make_offers(std::size_t i, PageVector<std::uint32_t>& won) {
-    look_ahead(i);
-    const TileSeed from = frontier_[i];
-    for (const std::uint32_t voxel : tile_.neighbours_of(from.voxel)) {
-      const State<kAlone> state{state_[voxel]};
-      std::uint64_t now = state.now();
-      if (now != kFree && cluster_of(now) == from.cluster) continue;
-      const std::uint64_t mine = offer(distance_(voxel, from.cluster), from.cluster);
-      while (mine < now) {
-        if (!state.change(now, mine)) continue;
-        if (first_touch(voxel)) won.push_back(voxel);
-        break;
+  void make_offers(std::size_t own) {
+    Part& part = parts_[own];
+    part.won.clear();
+    const std::uint32_t begin = static_cast<std::uint32_t>(own) * part_voxels_;
+    for (std::size_t i = 0; i < part.frontier.size(); ++i) {
+      look_ahead(part.frontier, i);
+      const TileSeed from = part.frontier[i];
+      for (const std::uint32_t voxel : tile_.neighbours_of(from.voxel)) {
+        const bool is_own = voxel - begin < part_voxels_;
+        if (is_own && state_[voxel] != kFree && cluster_of(state_[voxel]) == from.cluster) continue;
+        const std::uint64_t mine = offer(distance_(voxel, from.cluster), from.cluster);
+        if (is_own) {
+          take(part, {mine, voxel});
+        } else {
+          part.sent[part_of(voxel)].push_back({mine, voxel});
+        }
       }
     }
   }
 
-  /// A voxel that changes hands twice in a level is still one of the next frontier. Should two threads both be first it
-  /// is there twice, which changes nothing: an offer that is made again wins nothing.
-  bool first_touch(std::uint32_t voxel) {
-    const std::atomic_ref<std::uint8_t> touched(touched_[voxel]);
-    if (touched.load(std::memory_order_relaxed) != 0) return false;
-    touched.store(1, std::memory_order_relaxed);
-    return true;
+  void take_offers(std::size_t own) {
+    Part& part = parts_[own];
+    for (Part& from : parts_) {
+      for (const Offer& sent : from.sent[own]) take(part, sent);
+      from.sent[own].clear();
+    }
+    part.frontier.clear();
+    for (const std::uint32_t voxel : part.won) {
+      part.frontier.push_back({voxel, cluster_of(state_[voxel])});
+      touched_[voxel] = 0;
+    }
+  }
+
+  /// A voxel that changes hands twice in a level is still one of the next frontier.
+  void take(Part& part, const Offer& made) {
+    if (made.state >= state_[made.voxel]) return;
+    state_[made.voxel] = made.state;
+    if (touched_[made.voxel] != 0) return;
+    touched_[made.voxel] = 1;
+    part.won.push_back(made.voxel);
   }
 
   static constexpr std::size_t kAhead = 8;
 
   const VoxelTile& tile_;
   const Distance& distance_;
+  std::vector<Part> parts_;
+  std::uint32_t part_voxels_ = 0;
   PageVector<std::uint64_t> state_;
   PageVector<std::uint8_t> touched_;
-  PageVector<TileSeed> frontier_;
-  PageVector<std::uint32_t> won_;  // At this level.
 };
 
 template <class Distance>
