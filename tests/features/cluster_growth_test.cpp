@@ -74,6 +74,7 @@ TEST(ClusterGrowth, ThreadsAndOrderOfSeeds_DoNotMatter) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     GrowthScene scene = test::growth_scene(seed % 2 ? Features::kNormal : Features::kFpfh, seed % 3 == 0, 30'000, seed);
     scene.scale.levels = 6;
+    ASSERT_GT(scene.tile.size(), 2U * 4096U) << "enough for several parts";
     const auto with_threads = [&](int threads) {
       const ThreadLimit limit(threads);
       return grow(scene);
