@@ -18,7 +18,7 @@ constexpr double kFollowedBytesPerPoint = 6.5;
 /// 8 for nearly one point in six, as of towns and of real scans but for those of vegetation, where it is one in four.
 constexpr double kZhengResultBytesPerPoint = 2.0;
 /// Of the bound of a tile, which allows for more contour points than most scans have.
-constexpr double kArrisLikelyShare = 0.87;
+constexpr double kArrisLikelyShare = 0.895;
 
 }  // namespace
 
