@@ -87,7 +87,7 @@ inline double world_coordinate(const SourceInfo& source, const PointBatch& batch
 
 struct ReadOptions {
   bool records = false;  ///< Deliver the original records as well as the coordinates.
-  /// Most points per batch, >= 1. Batches may be smaller: their records take about 4 MiB at most, or one longer record.
+  /// Most points per batch, >= 1: so few stay in the caches. Records take 4 MiB at most, or one longer record.
   std::size_t batch_points = 16 * 1024;
   PointExclusion exclusion{};  ///< An InputSet applies it, if it names any, in place of its own exclusion and filters.
 };

@@ -9,7 +9,7 @@
 namespace arris::pipeline {
 namespace {
 
-constexpr std::size_t kGrain = 8 * 1024;
+constexpr std::size_t kGrain = 2 * 1024;
 
 /// splitmix64 of the cell's place.
 std::uint64_t hash_of(std::int64_t x, std::int64_t y, std::int64_t z) {

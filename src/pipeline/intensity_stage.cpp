@@ -81,7 +81,6 @@ class IntensityPasses {
     std::size_t open_index = 0;
     io::ReadOptions options;
     options.records = true;
-    options.batch_points = 16 * 1024;  // What is read stays in the cache.
     for_each_batch(inputs_, options, name, progress_, cancel_, [&](std::size_t source, const io::PointBatch& batch) {
       if (!reader || source != open_index) reader = open(inputs_.sources()[source]);
       open_index = source;

@@ -12,7 +12,7 @@ namespace arris::pipeline {
 namespace {
 
 /// Of loops over the points of a batch, where there are more threads than batches on their way.
-constexpr std::size_t kGrain = 8 * 1024;
+constexpr std::size_t kGrain = 2 * 1024;
 
 struct LabelledBatch {
   io::PointBatch batch;
