@@ -238,4 +238,10 @@ std::size_t spare_pages_bytes() noexcept {
   return spare_pages().size_bytes();
 }
 
+void touch_pages(void* begin, std::size_t size_bytes) noexcept {
+  auto* const bytes = static_cast<volatile unsigned char*>(begin);
+  for (std::size_t at = 0; at < size_bytes; at += kPage) bytes[at] = 0;
+  if (size_bytes > 0) bytes[size_bytes - 1] = 0;
+}
+
 }  // namespace arris

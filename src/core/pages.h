@@ -27,6 +27,9 @@ void trim_spare_pages(std::size_t most_bytes) noexcept;
 /// What was returned and not taken again, and the rest of shared large pages.
 std::size_t spare_pages_bytes() noexcept;
 
+/// Writes to a byte of every page of a stretch, whatever was in it, so that the system makes them all now.
+void touch_pages(void* begin, std::size_t size_bytes) noexcept;
+
 /// Takes large blocks in pages, and leaves elements that are made without a value as they are, so that resize() writes
 /// to nothing: whoever resizes fills.
 template <class T>

@@ -61,9 +61,14 @@ class StageRun {
     }
   }
 
-  /// What has come furthest goes first: its place is wanted again.
+  /// Filling goes first, which only one can do and all others live on; then what has come furthest, whose place is
+  /// wanted again.
   std::optional<Step> next() {
     if (stopped_) return std::nullopt;
+    if (!filling_ && !ended_ && last_ - first_ < places_.size()) {
+      filling_ = true;
+      return Step{last_, true};
+    }
     for (std::uint64_t item = first_; item < last_; ++item) {
       Progress& now = at(item);
       if (now.busy || now.through == stages_.size()) continue;
@@ -72,9 +77,7 @@ class StageRun {
       now.busy = true;
       return Step{item, false};
     }
-    if (filling_ || ended_ || last_ - first_ == places_.size()) return std::nullopt;
-    filling_ = true;
-    return Step{last_, true};
+    return std::nullopt;
   }
 
   /// True unless there was nothing to fill a place with, or an error.

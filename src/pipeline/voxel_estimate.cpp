@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/process_memory.h"
 #include "features/supervoxel/voxel_features.h"
@@ -55,27 +56,29 @@ class CubesOfCell {
 };
 
 /// @param parts  of the points, that fill cubes of their own.
-double count_of_cubes(const tiling::CellCounts& counts, std::int64_t side_steps, std::uint64_t parts = 1) {
-  const CubesOfCell cubes(counts.level(), side_steps);
+double count_of_cubes(int cell_level, std::span<const tiling::CellClass> classes, std::int64_t side_steps,
+                      std::uint64_t parts = 1) {
+  const CubesOfCell cubes(cell_level, side_steps);
   double sum = 0.0;
-  for (const auto& [points, cells] : counts.classes())
+  for (const auto& [points, cells] : classes)
     sum += static_cast<double>(cells * parts) * cubes(static_cast<double>(points) / static_cast<double>(parts));
   return sum;
 }
 
 /// The same for cubes that may be larger than the cells of the survey.
-double count_of_large_cubes(const tiling::CellCounts& counts, std::int64_t side_steps) {
+double count_of_large_cubes(const tiling::Survey& survey, std::int64_t side_steps) {
   const int level = static_cast<int>(std::ceil(std::log2(static_cast<double>(side_steps))));
-  if (level <= counts.level()) return count_of_cubes(counts, side_steps);
-  return count_of_cubes(counts.coarsened(std::min(level, 30)), side_steps);
+  if (level <= survey.counts.level()) return count_of_cubes(survey.counts.level(), survey.classes, side_steps);
+  const tiling::CellCounts coarse = survey.counts.coarsened(std::min(level, 30));
+  return count_of_cubes(coarse.level(), coarse.classes(), side_steps);
 }
 
 /// Voxels of the scale that stand for voxels of the finer one that no seed reached.
-double count_of_leftovers(const tiling::CellCounts& counts, const SupervoxelScale& finer,
-                          const SupervoxelScale& scale) {
-  const CubesOfCell before(counts.level(), finer.voxel_steps), cubes(counts.level(), scale.voxel_steps);
+double count_of_leftovers(const tiling::Survey& survey, const SupervoxelScale& finer, const SupervoxelScale& scale) {
+  const int level = survey.counts.level();
+  const CubesOfCell before(level, finer.voxel_steps), cubes(level, scale.voxel_steps);
   double sum = 0.0;
-  for (const auto& [points, cells] : counts.classes())
+  for (const auto& [points, cells] : survey.classes)
     sum += static_cast<double>(cells) * before.lonely(points) * cubes(static_cast<double>(points));
   return sum;
 }
@@ -83,7 +86,7 @@ double count_of_leftovers(const tiling::CellCounts& counts, const SupervoxelScal
 /// Of all runs, where the table has room for fewer voxels than there are. What is scanned twice is in two of them as
 /// far as both scans met the same voxels, unless the table still held it.
 double run_entries(const tiling::Survey& survey, const SupervoxelScale& scale, double voxels, double table_entries) {
-  const double of_both = count_of_cubes(survey.counts, scale.voxel_steps, 2);
+  const double of_both = count_of_cubes(survey.counts.level(), survey.classes, scale.voxel_steps, 2);
   return voxels + kScannedTwice * (of_both - voxels) * (1.0 - table_entries / voxels);
 }
 
@@ -121,16 +124,15 @@ double VoxelEstimate::lone() const {
 }
 
 double likely_voxels(const tiling::Survey& survey, const SupervoxelScale& scale) {
-  return count_of_cubes(survey.counts, scale.voxel_steps);
+  return count_of_cubes(survey.counts.level(), survey.classes, scale.voxel_steps);
 }
 
 VoxelEstimate estimate_voxels(const tiling::Survey& survey, const SupervoxelScale& scale) {
   VoxelEstimate estimate;
   const std::int64_t side = scale.voxel_steps;
   estimate.voxels = likely_voxels(survey, scale);
-  estimate.blocks =
-      std::min(estimate.voxels, count_of_large_cubes(survey.counts, tiling::VoxelIndex::kBlockSide * side));
-  const double parts = std::clamp(count_of_large_cubes(survey.counts, tiling::VoxelIndex::kBlockSide * side / 2),
+  estimate.blocks = std::min(estimate.voxels, count_of_large_cubes(survey, tiling::VoxelIndex::kBlockSide * side));
+  const double parts = std::clamp(count_of_large_cubes(survey, tiling::VoxelIndex::kBlockSide * side / 2),
                                   estimate.blocks, estimate.voxels);
   estimate.index_bytes = 40.0 * estimate.blocks + 8.0 * parts;
   estimate.clusters = likely_clusters(estimate.voxels - estimate.blocks, scale);
@@ -155,7 +157,7 @@ SupervoxelBytes likely_supervoxel_bytes(const tiling::Survey& survey, const Supe
   for (SupervoxelScale finer = scale; can_coarsen(finer); finer = coarser(finer, parameters)) {
     const SupervoxelScale level = coarser(finer, parameters);
     const VoxelEstimate all = estimate_voxels(survey, level);
-    const double voxels = count_of_leftovers(survey.counts, finer, level);
+    const double voxels = count_of_leftovers(survey, finer, level);
     kept += (2 * sizeof(std::uint32_t) + all.index_bytes / std::max(1.0, all.voxels)) * voxels;
     const double clusters = likely_clusters(voxels * (1.0 - all.blocks / std::max(1.0, all.voxels)), level);
     const double lone = voxels * all.lone() / std::max(1.0, all.voxels);

@@ -5,24 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "tiling/cell_grid.h"
 #include "tiling/cell_level.h"
-#include "tiling/cell_tree.h"
 
 namespace arris::tiling {
-namespace {
-
-// Part of a cell's count that moves to the overflow map in one go; small enough that adding one can never overflow
-// int32.
-constexpr std::int32_t kCarry = 1 << 30;
-
-std::vector<const CellLeaf*> leaves_of(const CellTree& tree) {
-  std::vector<const CellLeaf*> leaves;
-  leaves.reserve(tree.leafCount());
-  tree.getNodes(leaves);
-  return leaves;
-}
-
-}  // namespace
 
 struct CellCounts::Impl {
   Impl(int first_level, std::size_t most_leaves)
@@ -30,92 +16,15 @@ struct CellCounts::Impl {
 
   int level;
   std::size_t max_leaves;
-  std::size_t leaves = 0;
   std::uint64_t total = 0;
-  std::unique_ptr<CellTree> tree = std::make_unique<CellTree>(0);
-  std::map<Cell, std::uint64_t> overflow;  // Multiples of kCarry that are not in the tree.
-  CellLeafCache cache;
-
-  CellLeaf* probe_leaf(std::int32_t cx, std::int32_t cy, std::int32_t cz) {
-    const std::int32_t lx = cx >> kCellLeafLog2, ly = cy >> kCellLeafLog2, lz = cz >> kCellLeafLog2;
-    if (CellLeaf* leaf = cache.find(lx, ly, lz)) return leaf;
-    CellLeaf* leaf = tree->probeLeaf(openvdb::Coord(cx, cy, cz));
-    if (leaf) cache.put(lx, ly, lz, leaf);
-    return leaf;
-  }
-
-  CellLeaf* touch_leaf(std::int32_t cx, std::int32_t cy, std::int32_t cz) {
-    if (CellLeaf* leaf = probe_leaf(cx, cy, cz)) return leaf;
-    CellLeaf* leaf = tree->touchLeaf(openvdb::Coord(cx, cy, cz));
-    ++leaves;
-    cache.put(cx >> kCellLeafLog2, cy >> kCellLeafLog2, cz >> kCellLeafLog2, leaf);
-    return leaf;
-  }
-
-  void add_to_cell(const Cell& cell, std::uint64_t count) {
-    CellLeaf* leaf = touch_leaf(cell[0], cell[1], cell[2]);
-    const openvdb::Index offset = offset_in_leaf(cell[0], cell[1], cell[2]);
-    leaf->setActiveState(offset, true);
-    std::int32_t& stored = leaf->buffer().data()[offset];
-    const std::uint64_t sum = static_cast<std::uint64_t>(stored) + count;
-    const std::uint64_t carried = sum / kCarry * kCarry;
-    if (carried > 0) overflow[cell] += carried;
-    stored = static_cast<std::int32_t>(sum - carried);
-  }
-
-  /// Calls emptied() if the cell's last point went. Returns how many of `count` points were there.
-  template <typename Emptied>
-  std::uint64_t take_from_cell(const Cell& cell, std::uint64_t count, Emptied&& emptied) {
-    CellLeaf* leaf = probe_leaf(cell[0], cell[1], cell[2]);
-    const openvdb::Index offset = offset_in_leaf(cell[0], cell[1], cell[2]);
-    if (!leaf || !leaf->isValueOn(offset)) return 0;
-    std::int32_t& stored = leaf->buffer().data()[offset];
-    std::uint64_t taken = 0;
-    for (;;) {
-      const std::uint64_t now = std::min<std::uint64_t>(count - taken, static_cast<std::uint64_t>(stored));
-      stored -= static_cast<std::int32_t>(now);
-      taken += now;
-      if (stored > 0) return taken;
-      if (carried(cell) == 0) {
-        leaf->setActiveState(offset, false);
-        emptied();
-        return taken;
-      }
-      if (taken == count) return taken;
-      const auto found = overflow.find(cell);  // Borrow.
-      found->second -= kCarry;
-      if (found->second == 0) overflow.erase(found);
-      stored = kCarry;
-    }
-  }
-
-  std::uint64_t carried(const Cell& cell) const {
-    if (overflow.empty()) return 0;
-    const auto found = overflow.find(cell);
-    return found == overflow.end() ? 0 : found->second;
-  }
+  CellGrid grid;
 
   void coarsen() {
-    std::vector<CellLeaf*> stolen;
-    tree->stealNodes(stolen);
-    std::vector<std::unique_ptr<CellLeaf>> fine(stolen.begin(), stolen.end());
-    tree = std::make_unique<CellTree>(0);
-    const std::map<Cell, std::uint64_t> fine_overflow = std::exchange(overflow, {});
-    cache.clear();
-    leaves = 0;
+    grid.coarsen();
     ++level;
-    for (std::unique_ptr<CellLeaf>& leaf : fine) {
-      for (auto value = leaf->cbeginValueOn(); value; ++value) {
-        const openvdb::Coord at = value.getCoord();
-        add_to_cell({at.x() >> 1, at.y() >> 1, at.z() >> 1}, static_cast<std::uint64_t>(*value));
-      }
-      leaf.reset();  // Its memory serves the next coarse one.
-    }
-    for (const auto& [cell, count] : fine_overflow) add_to_cell({cell[0] >> 1, cell[1] >> 1, cell[2] >> 1}, count);
   }
-
   void coarsen_to_fit() {
-    while (leaves > max_leaves && level < kMaxCellLevel) coarsen();
+    while (grid.leaves() > max_leaves && level < kMaxCellLevel) coarsen();
   }
 };
 
@@ -133,7 +42,7 @@ std::uint64_t CellCounts::total() const {
   return impl_->total;
 }
 std::size_t CellCounts::active_cells() const {
-  return impl_->tree->onVoxelCount();
+  return impl_->grid.active_cells();
 }
 
 void CellCounts::add(std::span<const LatticePoint> points) {
@@ -142,7 +51,7 @@ void CellCounts::add(std::span<const LatticePoint> points) {
   for (std::size_t begin = 0; begin < points.size();) {
     const Cell cell = cell_of(points[begin], impl.level);
     const std::size_t end = end_of_run(points, begin, impl.level);
-    impl.add_to_cell(cell, end - begin);
+    impl.grid.add(cell, end - begin);
     impl.coarsen_to_fit();
     begin = end;
   }
@@ -151,7 +60,7 @@ void CellCounts::add(std::span<const LatticePoint> points) {
 
 void CellCounts::add(const LatticePoint& point, std::uint64_t count) {
   if (count == 0) return;
-  impl_->add_to_cell(cell_of(point, impl_->level), count);
+  impl_->grid.add(cell_of(point, impl_->level), count);
   impl_->coarsen_to_fit();
   impl_->total += count;
 }
@@ -164,7 +73,7 @@ std::size_t CellCounts::remove(std::span<const LatticePoint> points,
   for (std::size_t begin = 0; begin < points.size();) {
     const Cell cell = cell_of(points[begin], level);
     const std::size_t end = end_of_run(points, begin, level);
-    const std::uint64_t there = impl.take_from_cell(cell, end - begin, [&] { emptied(cell_box(cell, level)); });
+    const std::uint64_t there = impl.grid.take(cell, end - begin, [&] { emptied(cell_box(cell, level)); });
     missing += end - begin - there;
     begin = end;
   }
@@ -176,56 +85,45 @@ std::vector<CellClass> CellCounts::classes() const {
   constexpr std::size_t kFew = 4096;
   std::vector<std::uint64_t> with_few(kFew);  // Nearly all cells, by their points.
   std::map<std::uint64_t, std::uint64_t> with_many;
-  for (const CellLeaf* leaf : leaves_of(*impl_->tree)) {
-    for (auto value = leaf->cbeginValueOn(); value; ++value) {
-      const auto stored = static_cast<std::uint64_t>(*value);
-      if (impl_->overflow.empty() && stored < kFew) {
-        ++with_few[stored];
-        continue;
+  for (const CellLeaf* leaf : impl_->grid.list_leaves()) {
+    impl_->grid.for_each_in(*leaf, [&](openvdb::Index, std::uint64_t points) {
+      if (points < kFew) {
+        ++with_few[points];
+      } else {
+        ++with_many[points];
       }
-      const openvdb::Coord at = value.getCoord();
-      ++with_many[stored + impl_->carried({at.x(), at.y(), at.z()})];
-    }
-  }
-  for (std::size_t points = 0; points < kFew; ++points) {
-    if (with_few[points] > 0) with_many[points] += with_few[points];
+    });
   }
   std::vector<CellClass> classes;
+  for (std::size_t points = 0; points < kFew; ++points) {
+    if (with_few[points] > 0) classes.push_back({points, with_few[points]});
+  }
   for (const auto& [points, cells] : with_many) classes.push_back({points, cells});
   return classes;
 }
 
 std::uint64_t CellCounts::count_at(const LatticePoint& position) const {
-  const int level = impl_->level;
-  const Cell cell = cell_of(position, level);
-  const CellLeaf* leaf = impl_->tree->probeConstLeaf(openvdb::Coord(cell[0], cell[1], cell[2]));
-  if (!leaf) return 0;
-  return static_cast<std::uint64_t>(leaf->getValue(offset_in_leaf(cell[0], cell[1], cell[2]))) + impl_->carried(cell);
+  return impl_->grid.count_at(cell_of(position, impl_->level));
 }
 
 CellCounts CellCounts::coarsened(int level) const {
-  auto copy = std::make_unique<Impl>(impl_->level, impl_->max_leaves);
-  copy->leaves = impl_->leaves;
-  copy->total = impl_->total;
-  copy->tree = std::make_unique<CellTree>(*impl_->tree);
-  copy->overflow = impl_->overflow;
+  auto copy = std::make_unique<Impl>(*impl_);
   while (copy->level < std::min(level, kMaxCellLevel)) copy->coarsen();
   return CellCounts(std::move(copy));
 }
 
 void CellCounts::for_each_by_leaf(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const {
-  for (const CellLeaf* leaf : leaves_of(*impl_->tree)) {
-    for (auto value = leaf->cbeginValueOn(); value; ++value) {
-      const openvdb::Coord at = value.getCoord();
-      const Cell cell{at.x(), at.y(), at.z()};
-      visit(cell_box(cell, impl_->level), static_cast<std::uint64_t>(*value) + impl_->carried(cell));
-    }
+  for (const CellLeaf* leaf : impl_->grid.list_leaves()) {
+    impl_->grid.for_each_in(*leaf, [&](openvdb::Index offset, std::uint64_t count) {
+      const openvdb::Coord at = leaf->offsetToGlobalCoord(offset);
+      visit(cell_box({at.x(), at.y(), at.z()}, impl_->level), count);
+    });
   }
 }
 
 void CellCounts::for_each(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const {
   // Ascending order without a list of all cells: leaves are sorted, then rows of leaves are walked plane by plane.
-  std::vector<const CellLeaf*> leaves = leaves_of(*impl_->tree);
+  std::vector<const CellLeaf*> leaves = impl_->grid.list_leaves();
   std::ranges::sort(leaves, [](const CellLeaf* a, const CellLeaf* b) { return a->origin() < b->origin(); });
   const auto same = [&](std::size_t a, std::size_t b, int axes) {
     for (int axis = 0; axis < axes; ++axis) {
@@ -239,7 +137,7 @@ void CellCounts::for_each(const std::function<void(const LatticeBox& cell, std::
       if (!leaf.isValueOn(offset)) continue;
       const openvdb::Coord& origin = leaf.origin();
       const Cell cell{origin.x() + dx, origin.y() + dy, origin.z() + dz};
-      visit(cell_box(cell, impl_->level), static_cast<std::uint64_t>(leaf.getValue(offset)) + impl_->carried(cell));
+      visit(cell_box(cell, impl_->level), impl_->grid.count_at(leaf, offset));
     }
   };
   for (std::size_t slab = 0, slab_end = 0; slab < leaves.size(); slab = slab_end) {

@@ -1,5 +1,5 @@
 #pragma once
-/// @file The grid in which CellCounts keeps its counts. Private to it: includes OpenVDB.
+/// @file The tree in which CellGrid keeps its counts. Private to it: includes OpenVDB.
 
 #include <openvdb/tree/InternalNode.h>
 #include <openvdb/tree/LeafNode.h>
@@ -50,31 +50,5 @@ inline std::size_t end_of_run(std::span<const LatticePoint> points, std::size_t 
   while (end < points.size() && cell_of(points[end], level) == cell) ++end;
   return end;
 }
-
-/// Leaves met lately, found by a hash of their position: most points need no walk down the tree.
-class CellLeafCache {
- public:
-  CellLeaf* find(std::int32_t x, std::int32_t y, std::int32_t z) const {
-    const Entry& entry = entries_[slot(x, y, z)];
-    return entry.leaf && entry.x == x && entry.y == y && entry.z == z ? entry.leaf : nullptr;
-  }
-  void put(std::int32_t x, std::int32_t y, std::int32_t z, CellLeaf* leaf) {
-    entries_[slot(x, y, z)] = {leaf, x, y, z};
-  }
-  void clear() { entries_.fill({}); }
-
- private:
-  struct Entry {
-    CellLeaf* leaf = nullptr;
-    std::int32_t x = 0, y = 0, z = 0;
-  };
-  static std::size_t slot(std::int32_t x, std::int32_t y, std::int32_t z) {
-    const std::uint32_t hash = static_cast<std::uint32_t>(x) * 0x9E3779B1U ^
-                               static_cast<std::uint32_t>(y) * 0x85EBCA77U ^
-                               static_cast<std::uint32_t>(z) * 0xC2B2AE3DU;
-    return hash >> 22;
-  }
-  std::array<Entry, 1024> entries_{};
-};
 
 }  // namespace arris::tiling

@@ -5,7 +5,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "core/parallel.h"
 #include "core/prefetch.h"
 #include "tiling/page_array.h"
 
@@ -26,7 +28,10 @@ class HashSlots {
         slots_(lines_ * kLine),
         index_bits_(static_cast<int>(std::bit_width(limit))),
         mask_(static_cast<std::uint32_t>((std::uint64_t{1} << index_bits_) - 1)) {
-    std::ranges::fill(slots_.first(size()), kNone);
+    const std::span<std::uint32_t> all = slots_.first(size());
+    parallel_for_chunks(all.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      std::ranges::fill(all.subspan(begin, end - begin), kNone);
+    });
   }
 
   std::size_t size() const { return lines_ * kLine; }
@@ -62,6 +67,7 @@ class HashSlots {
   }
 
   static constexpr std::size_t kLine = 16;
+  static constexpr std::size_t kGrain = std::size_t{256} << 10;
 
   std::size_t lines_ = 0;
   PageArray<std::uint32_t> slots_;

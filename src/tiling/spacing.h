@@ -1,6 +1,8 @@
 #pragma once
 /// @file The spacing of points as the survey's counts tell it.
 
+#include <span>
+
 #include "core/lattice.h"
 #include "tiling/cell_counts.h"
 
@@ -19,7 +21,9 @@ struct SpacingEstimate {
 /// median over points of the count is at least kCoveredCellPoints. Clouds that reach this nowhere (a few dozen points,
 /// a thousand if they straddle the origin): longest side of `bounds` / sqrt(points). Never below one step (duplicates).
 /// Memory: 8 bytes per active cell, and a copy of the counts where coarser levels are needed.
-SpacingEstimate estimate_spacing(const CellCounts& counts, const LatticeBox& bounds);
+/// @param classes  of counts.
+SpacingEstimate estimate_spacing(const CellCounts& counts, std::span<const CellClass> classes,
+                                 const LatticeBox& bounds);
 
 /// Spacing in steps in a cell of 2^level steps that holds `count` >= 1 points; within [1, side].
 double cell_spacing_steps(int level, std::uint64_t count);

@@ -77,7 +77,8 @@ void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped
 }
 
 void Survey::finish() {
-  spacing = lattice.step * estimate_spacing(counts, bounds).steps;
+  classes = counts.classes();
+  spacing = lattice.step * estimate_spacing(counts, classes, bounds).steps;
 }
 
 Survey survey_inputs(io::InputSet& inputs, const SurveyOptions& options, ProgressSink& progress,

@@ -43,13 +43,14 @@ struct Survey : SurveyTotals {
   /// the median count is at least 16 (coarser levels are made from finer ones). 0 for empty input; spacing.h has the
   /// degenerate cases.
   double spacing = 0.0;
-  CellCounts counts;  ///< Points per absolute cell of 2^k lattice steps.
+  CellCounts counts;               ///< Points per absolute cell of 2^k lattice steps.
+  std::vector<CellClass> classes;  ///< Of counts.
 
   /// Counts a batch of mapped points (equal lengths), of which `totals` are known.
   void add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome, const SurveyTotals& totals);
   /// The same, where they are not.
   void add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome);
-  /// Completes the survey after the last batch: sets spacing.
+  /// Completes the survey after the last batch: sets spacing and classes.
   void finish();
 };
 

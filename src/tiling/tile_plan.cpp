@@ -22,7 +22,7 @@ constexpr std::uint64_t kHaloIsTooLarge = 64;
 std::vector<PlanCell> list_cells(const PlanCells& plan_cells) {
   const CellCounts& counts = plan_cells.largest();
   const int level = counts.level();
-  const SpacingEstimate typical = estimate_spacing(counts, plan_cells.survey().bounds);
+  const SpacingEstimate typical = estimate_spacing(counts, counts.classes(), plan_cells.survey().bounds);
   // Cells too small to show a density are judged by the larger cells around them.
   std::optional<CellCounts> coarse;
   if (typical.level > level) coarse = counts.coarsened(typical.level);

@@ -105,7 +105,7 @@ struct VoxelAccumulator::Impl {
     const std::size_t fan_in = std::clamp<std::size_t>(free_bytes / kLeastReadBytes, 2, kMostRuns);
     while (runs.size() > fan_in) merge_first(std::min(fan_in, runs.size() - fan_in + 1));
     VoxelMerge merge(runs, read_bytes(runs.size()));
-    for (VoxelRecord record; merge.next(record);) filler.add(record);
+    filler.add_all([&](VoxelRecord& record) { return merge.next(record); });
   }
 
   VoxelGrid grid;
@@ -154,14 +154,13 @@ VoxelStore VoxelAccumulator::finish() {
   auto store = std::make_unique<VoxelStore::Impl>(impl.grid, impl.folder / "voxels.store", impl.write_bytes, colours);
   VoxelStoreFiller filler(store->file, store->index, impl.most_index_bytes);
   if (impl.runs.empty()) {
-    filler.add_sorted(impl.table->sorted());
+    filler.add_all(impl.table->sorted());
     impl.table.reset();
   } else {
     if (!impl.table->empty()) impl.spill();
     impl.table.reset();
     impl.merge_into(filler);
   }
-  filler.finish();
   store->file.finish();
   store->index.finish();
   store->points = impl.points;

@@ -46,6 +46,17 @@ VoxelFile::VoxelFile(std::filesystem::path path, std::size_t buffer_bytes, const
   buffer_.reserve(buffer_bytes_);
 }
 
+void VoxelFile::append(std::span<const Voxel> voxels) {
+  while (!voxels.empty()) {
+    if (buffer_.size() == buffer_bytes_) flush();
+    const std::size_t count = std::min(voxels.size(), (buffer_bytes_ - buffer_.size()) / layout_.bytes());
+    const std::size_t at = buffer_.size();
+    buffer_.resize(at + count * layout_.bytes());
+    for (std::size_t i = 0; i < count; ++i) layout_.write(voxels[i], buffer_.data() + at + i * layout_.bytes());
+    voxels = voxels.subspan(count);
+  }
+}
+
 void VoxelFile::flush() {
   Hasher hasher;
   for (std::size_t at = 0; at < buffer_.size(); at += chunk_bytes()) {

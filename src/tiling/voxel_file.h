@@ -35,11 +35,7 @@ class VoxelFile {
 
   /// @param buffer_bytes  for writing; rounded to whole chunks, at least one.
   VoxelFile(std::filesystem::path path, std::size_t buffer_bytes, const VoxelLayout& layout);
-  void append(const Voxel& voxel) {
-    if (buffer_.size() == buffer_bytes_) flush();
-    buffer_.resize(buffer_.size() + layout_.bytes());
-    layout_.write(voxel, buffer_.data() + buffer_.size() - layout_.bytes());
-  }
+  void append(std::span<const Voxel> voxels);
   /// Call after the last append().
   void finish();
 

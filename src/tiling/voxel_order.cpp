@@ -21,6 +21,8 @@ constexpr int kMostPasses = 6;
 using Counts = std::array<std::uint32_t, kDigits>;
 /// Elements that a thread is worth waking for.
 constexpr std::size_t kLeastPart = 32 * 1024;
+/// So many of each thread that none waits long for the slowest.
+constexpr std::size_t kPartsPerThread = 4;
 
 /// A key and an index in one word.
 struct Packed {
@@ -53,6 +55,12 @@ std::size_t digit(std::uint64_t key, int pass) {
   return key >> pass * kDigitBits & (kDigits - 1);
 }
 
+/// One for a single thread.
+std::size_t parts_of(std::size_t size) {
+  const auto threads = static_cast<std::size_t>(loop_threads());
+  return threads <= 1 ? 1 : std::clamp<std::size_t>(size / kLeastPart, 1, kPartsPerThread * threads);
+}
+
 /// From how often each digit comes in each part to where the first of them goes. False if all have the same digit.
 bool to_places(std::span<Counts> counts, std::size_t size) {
   std::uint32_t begin = 0;
@@ -70,8 +78,7 @@ template <class Elements>
 PageArray<std::uint32_t> radix_order(std::span<const VoxelSums> sums, const ZOrderKey& key_of, int index_bits) {
   const std::size_t size = sums.size();
   const int passes = (key_of.bits() + kDigitBits - 1) / kDigitBits;
-  const std::size_t parts =
-      std::clamp<std::size_t>(size / kLeastPart, 1, static_cast<std::size_t>(std::max(1, loop_threads())));
+  const std::size_t parts = parts_of(size);
   const std::size_t grain = (size + parts - 1) / parts;
   // Elements change their part from pass to pass: several have to be counted again.
   std::array<std::vector<Counts>, kMostPasses> counts;
@@ -115,6 +122,31 @@ PageArray<std::uint32_t> radix_order(std::span<const VoxelSums> sums, const ZOrd
   return order;
 }
 
+/// Of keys, both included.
+struct Range {
+  LatticePoint least, most;
+  void include(const LatticePoint& low, const LatticePoint& high) {
+    least = {std::min(least.x, low.x), std::min(least.y, low.y), std::min(least.z, low.z)};
+    most = {std::max(most.x, high.x), std::max(most.y, high.y), std::max(most.z, high.z)};
+  }
+};
+
+/// @param sums  at least one.
+Range range_of(std::span<const VoxelSums> sums) {
+  const std::size_t parts = parts_of(sums.size());
+  const std::size_t grain = (sums.size() + parts - 1) / parts;
+  const Range first{sums.front().key, sums.front().key};
+  std::vector<Range> ranges(parts, first);
+  parallel_for_chunks(sums.size(), grain, [&](std::size_t begin, std::size_t end) {
+    Range range = first;
+    for (const VoxelSums& s : sums.subspan(begin, end - begin)) range.include(s.key, s.key);
+    ranges[begin / grain] = range;
+  });
+  Range all = first;
+  for (const Range& range : ranges) all.include(range.least, range.most);
+  return all;
+}
+
 PageArray<std::uint32_t> compared_order(std::span<const VoxelSums> sums) {
   PageArray<std::uint32_t> order(sums.size());
   const std::span<std::uint32_t> indices = order.first(sums.size());
@@ -127,12 +159,8 @@ PageArray<std::uint32_t> compared_order(std::span<const VoxelSums> sums) {
 
 PageArray<std::uint32_t> z_order_of(std::span<const VoxelSums> sums) {
   if (sums.empty()) return {};
-  LatticePoint least = sums.front().key, most = least;
-  for (const VoxelSums& s : sums) {
-    least = {std::min(least.x, s.key.x), std::min(least.y, s.key.y), std::min(least.z, s.key.z)};
-    most = {std::max(most.x, s.key.x), std::max(most.y, s.key.y), std::max(most.z, s.key.z)};
-  }
-  const std::optional<ZOrderKey> key_of = ZOrderKey::for_range(least, most);
+  const Range range = range_of(sums);
+  const std::optional<ZOrderKey> key_of = ZOrderKey::for_range(range.least, range.most);
   if (!key_of) return compared_order(sums);
   const int index_bits = static_cast<int>(std::bit_width(sums.size()));
   return key_of->bits() + index_bits <= 64 ? radix_order<Packed>(sums, *key_of, index_bits)

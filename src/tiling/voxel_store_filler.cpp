@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -32,61 +31,55 @@ void sum_part(const VoxelTable::Sorted& records, std::size_t begin, std::size_t 
 }  // namespace
 
 VoxelStoreFiller::VoxelStoreFiller(VoxelFile& file, VoxelIndex& index, std::uint64_t most_index_bytes)
-    : file_(file), index_(index), most_index_bytes_(most_index_bytes) {
-  if (loop_threads() > 1) filling_.emplace(1);
-}
+    : file_(file), index_(index), most_index_bytes_(most_index_bytes) {}
 
-void VoxelStoreFiller::add(const VoxelRecord& record) {
-  if (!total_ || !(total_->key() == record.sums.key)) {
-    complete();
-    total_.emplace(record.sums.key);
-  }
-  total_->add(record);
-}
-
-void VoxelStoreFiller::add_sorted(const VoxelTable::Sorted& records) {
-  constexpr std::size_t kBlock = kPart * kParts;
-  for (std::size_t begin = 0; begin < records.size(); begin += kBlock) {
-    const std::size_t count = std::min(kBlock, records.size() - begin);
-    parallel_for_chunks(count, kPart, [&](std::size_t first, std::size_t last) {
-      sum_part(records, begin + first, begin + last, summed_[first / kPart]);
-    });
-    fill();
-  }
-}
-
-void VoxelStoreFiller::finish() {
-  complete();
-  fill();
-  if (filling_) filling_->wait();
-}
-
-void VoxelStoreFiller::complete() {
-  if (!total_) return;
-  summed_[0].push_back(total_->mean());
-  total_.reset();
-  if (summed_[0].size() == kPart * kParts / 2) fill();
-}
-
-void VoxelStoreFiller::fill() {
-  if (filling_) filling_->wait();
-  std::swap(summed_, taken_);
-  for (std::vector<Voxel>& part : summed_) part.clear();
-  if (filling_) {
-    filling_->run([this] { append_taken(); });
-  } else {
-    append_taken();
-  }
-}
-
-void VoxelStoreFiller::append_taken() {
-  for (const std::vector<Voxel>& part : taken_) {
-    for (const Voxel& voxel : part) file_.append(voxel);
-    for (const Voxel& voxel : part) {
-      if (index_.size() == VoxelIndex::kNone - 1)
-        throw BudgetError(fmt::format("more than {} voxels; choose a larger --voxel", index_.size()));
-      index_.append(voxel.key);
+void VoxelStoreFiller::add_all(const std::function<bool(VoxelRecord& record)>& next) {
+  VoxelRecord record;
+  bool any = next(record);
+  ItemPlaces<std::vector<Voxel>> summed;
+  const auto sum = [&](std::size_t place) {
+    summed[place].clear();
+    while (any && summed[place].size() < kPart) {
+      VoxelTotal total(record.sums.key);
+      do {
+        total.add(record);
+        any = next(record);
+      } while (any && record.sums.key == total.key());
+      summed[place].push_back(total.mean());
     }
+    return !summed[place].empty();
+  };
+  run_stages(summed.size(), sum, {{StageOrder::kInTurn, [&](std::size_t place) { append(summed[place]); }}});
+}
+
+void VoxelStoreFiller::add_all(const VoxelTable::Sorted& records) {
+  struct Part {
+    std::size_t begin;
+    std::vector<Voxel> summed;
+  };
+  ItemPlaces<Part> parts;
+  std::size_t next = 0;
+  const auto take = [&](std::size_t place) {
+    if (next >= records.size()) return false;
+    parts[place].begin = next;
+    next += kPart;
+    return true;
+  };
+  const auto sum = [&](std::size_t place) {
+    Part& part = parts[place];
+    part.summed.clear();
+    sum_part(records, part.begin, std::min(part.begin + kPart, records.size()), part.summed);
+  };
+  const auto append_part = [&](std::size_t place) { append(parts[place].summed); };
+  run_stages(parts.size(), take, {{StageOrder::kAnyOrder, sum}, {StageOrder::kInTurn, append_part}});
+}
+
+void VoxelStoreFiller::append(const std::vector<Voxel>& voxels) {
+  file_.append(voxels);
+  for (const Voxel& voxel : voxels) {
+    if (index_.size() == VoxelIndex::kNone - 1)
+      throw BudgetError(fmt::format("more than {} voxels; choose a larger --voxel", index_.size()));
+    index_.append(voxel.key);
   }
   // The directory comes on top when all blocks are known.
   if (index_.memory_bytes() + index_.blocks() * kDirectoryBytes <= most_index_bytes_) return;

@@ -13,6 +13,9 @@ namespace {
 constexpr std::size_t kMostSums = 0xffff0000U;
 /// Points that are worth waking a thread for.
 constexpr std::size_t kLeastPoints = 2048;
+/// There may be so many fewer sums than were likely.
+constexpr std::size_t kUnlikelyShare = 8;
+constexpr std::size_t kTouchedSums = 64 * 1024;
 
 std::uint32_t lane_count() {
   const auto threads = static_cast<std::uint32_t>(std::max(1, loop_threads()));
@@ -34,6 +37,17 @@ VoxelTable::VoxelTable(const VoxelGrid& grid, std::size_t size_bytes, std::size_
     lanes_.emplace_back(grid, i, blocks_, &sums_[0], likely_sums / blocks_.lanes);
   looked_at_.assign(blocks_.lanes, 0);
   set_limits();
+  touch(likely_sums - likely_sums / kUnlikelyShare);
+}
+
+/// Lanes go in turn: where the system makes a page for one of them, which takes as long as thousands of points on some
+/// machines, others soon have to wait. All threads touch the pages of so many sums before, in any order.
+void VoxelTable::touch(std::size_t sums) {
+  if (lanes_.size() == 1) return;
+  const std::span<VoxelSums> all = sums_.first(std::min(sums, room()));
+  parallel_for_chunks(all.size(), kTouchedSums, [&](std::size_t begin, std::size_t end) {
+    touch_pages(&all[begin], (end - begin) * sizeof(VoxelSums));
+  });
 }
 
 /// Of each lane.

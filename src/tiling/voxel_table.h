@@ -67,6 +67,7 @@ class VoxelTable {
  private:
   std::size_t size() const;
   void set_limits();
+  void touch(std::size_t sums);
   std::size_t lane_sums(bool colours) const;
   std::size_t room() const;
   void close_up();

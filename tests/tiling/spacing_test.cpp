@@ -17,7 +17,7 @@ SpacingEstimate estimate(const std::vector<LatticePoint>& points, std::size_t ma
   counts.add(points);
   LatticeBox bounds;
   for (const LatticePoint& p : points) bounds.include(p);
-  return estimate_spacing(counts, bounds);
+  return estimate_spacing(counts, counts.classes(), bounds);
 }
 
 class SpacingOfGrid : public testing::TestWithParam<std::int32_t> {};

@@ -27,7 +27,11 @@ TEST(VoxelFile, NarrowAndWideVoxelsWithAndWithoutColours_AreReadAsWritten) {
       const VoxelLayout layout(VoxelGrid(side), colours);
       EXPECT_EQ(layout.bytes(), (side <= 4096 ? 6U : 12U) + (colours ? 6U : 0U));
       VoxelFile file(folder / "voxels", 2 * VoxelFile::kChunkVoxels * layout.bytes(), layout);
-      for (std::uint32_t rank = 0; rank < kVoxels; ++rank) file.append(voxel_at(rank, side, colours));
+      std::vector<Voxel> all;
+      for (std::uint32_t rank = 0; rank < kVoxels; ++rank) all.push_back(voxel_at(rank, side, colours));
+      // Pieces of all sizes, some longer than the buffer.
+      for (std::size_t begin = 0, piece = 0; begin < all.size(); begin += piece, piece = 2 * piece + 1)
+        file.append(std::span<const Voxel>(all).subspan(begin, std::min(piece, all.size() - begin)));
       file.finish();
       EXPECT_EQ(file.size_bytes(), kVoxels * layout.bytes());
       constexpr std::size_t kFirst = 3;
