@@ -57,7 +57,8 @@ TileContours extract_labelled(const TilePoints& points, const JobPlan& plan, con
   std::vector<std::uint32_t> labels(points.positions.size());
   parallel_for_chunks(labels.size(), kLabelGrain, [&](std::size_t begin, std::size_t end) {
     VoxelLabels label_of = labelled.scene.labels();  // Remembers where it was: one per chunk.
-    for (std::size_t i = begin; i < end; ++i) labels[i] = label_of.at(points.positions[i]);
+    label_of.find(std::span<const LatticePoint>(points.positions).subspan(begin, end - begin),
+                  std::span(labels).subspan(begin, end - begin));
   });
   return extract_zheng(points, labels, labelled.table, plan.survey.lattice, plan.method.zheng);
 }

@@ -25,15 +25,18 @@ struct LabelledBatch {
 void label(const LabelPass& pass, LabelledBatch& points) {
   pass.mapper.map(points.batch, points.source, points.positions, points.outcome);
   const std::size_t count = points.batch.count;
-  points.ids.assign(count, 0);
+  points.ids.resize(count);
   const bool enough_batches = static_cast<std::size_t>(loop_threads()) <= kItemsAhead;
   parallel_for_chunks(count, enough_batches ? count : kGrain, [&](std::size_t begin, std::size_t end) {
     VoxelLabels own = pass.labels;  // Remembers where it was: one per chunk.
+    own.find(std::span<const LatticePoint>(points.positions).subspan(begin, end - begin),
+             std::span(points.ids).subspan(begin, end - begin));
     for (std::size_t i = begin; i < end; ++i) {
-      if (points.outcome[i] != tiling::Mapped::kOk) continue;
-      points.ids[i] = own.at(points.positions[i]);
-      if (points.ids[i] == 0)
+      if (points.outcome[i] != tiling::Mapped::kOk) {
+        points.ids[i] = 0;
+      } else if (points.ids[i] == 0) {
         throw InputError("the inputs changed while they were read; run again when they are complete");
+      }
     }
   });
 }

@@ -2,6 +2,7 @@
 /// @file The supervoxel of any point.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/lattice.h"
@@ -12,22 +13,21 @@ namespace arris::pipeline {
 
 /// Points have the supervoxel of their voxel, or, where their voxel touches another surface, the one of the two whose
 /// plane fits them (features/supervoxel/point_refinement.h). Refers to what it is made from. Not thread-safe; one per
-/// thread. Fast for points that come in voxels or near each other.
+/// thread. Faster for points that come in voxels or near each other.
 class VoxelLabels {
  public:
   VoxelLabels(const tiling::VoxelStore& store, const SupervoxelStageResult& clusters)
       : store_(store), clusters_(clusters) {}
 
-  /// 0 where there is no voxel.
-  std::uint32_t at(const LatticePoint& p) {
-    const LatticePoint key = store_.grid().voxel_of(p);
-    const std::uint32_t rank = store_.index().rank(key, hint_);
+  /// Of each point (equal lengths); 0 where there is no voxel.
+  void find(std::span<const LatticePoint> points, std::span<std::uint32_t> ids);
+
+ private:
+  std::uint32_t id_at(const LatticePoint& p, const LatticePoint& key, std::uint32_t rank) {
     if (rank == tiling::VoxelIndex::kNone) return 0;
     const std::uint32_t own = clusters_.ids[rank];
     return clusters_.shared.empty() || !clusters_.is_shared(rank) ? own : refine(p, key, rank, own);
   }
-
- private:
   std::uint32_t refine(const LatticePoint& p, const LatticePoint& key, std::uint32_t rank, std::uint32_t own);
 
   const tiling::VoxelStore& store_;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "core/prefetch.h"
 #include "tiling/voxel_hash.h"
 
 namespace arris::tiling {
 namespace {
 
 constexpr std::size_t kSlotsPerBlock = 2;
+constexpr std::size_t kKeysAtATime = 128;
 
 }  // namespace
 
@@ -80,6 +82,48 @@ std::size_t VoxelIndex::block_of_rank(std::uint32_t rank) const {
 std::uint32_t VoxelIndex::find_block(const LatticePoint& block) const {
   if (size_ == 0) return kNone;
   return slots_.at(slots_.find(voxel_hash(block), [&](std::uint32_t i) { return blocks_[i].key == block; }));
+}
+
+void VoxelIndex::ranks(std::span<const LatticePoint> keys, std::span<std::uint32_t> ranks) const {
+  if (size_ == 0) {
+    std::ranges::fill(ranks, kNone);
+    return;
+  }
+  for (std::size_t begin = 0; begin < keys.size(); begin += kKeysAtATime) {
+    const std::size_t count = std::min(kKeysAtATime, keys.size() - begin);
+    ranks_of_some(keys.subspan(begin, count), ranks.subspan(begin, count));
+  }
+}
+
+/// Step by step for all keys: slots, blocks, words. Keys of one block mostly come one after another.
+void VoxelIndex::ranks_of_some(std::span<const LatticePoint> keys, std::span<std::uint32_t> ranks) const {
+  struct Run {
+    LatticePoint block;
+    std::uint32_t hash, begin;
+  };
+  std::array<Run, kKeysAtATime> runs;
+  std::array<std::uint32_t, kKeysAtATime> found;
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < keys.size(); ++i) {
+    const LatticePoint block{keys[i].x >> kLog2, keys[i].y >> kLog2, keys[i].z >> kLog2};
+    if (count > 0 && runs[count - 1].block == block) continue;
+    runs[count] = {block, voxel_hash(block), i};
+    slots_.prefetch(runs[count++].hash);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t guess = slots_.first(runs[i].hash);
+    if (guess != kNone) prefetch(&blocks_[guess]);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const Run& run = runs[i];
+    found[i] = slots_.at(slots_.find(run.hash, [&](std::uint32_t block) { return blocks_[block].key == run.block; }));
+    if (found[i] != kNone) prefetch(&words_[word_of(blocks_[found[i]], place_in_block(keys[run.begin]) >> 6)]);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t end = i + 1 < count ? runs[i + 1].begin : keys.size();
+    for (std::size_t key = runs[i].begin; key < end; ++key)
+      ranks[key] = found[i] == kNone ? kNone : rank_in(blocks_[found[i]], place_in_block(keys[key]));
+  }
 }
 
 void VoxelIndex::ranks_around(const LatticePoint& key, std::uint32_t& hint,

@@ -53,6 +53,9 @@ class VoxelIndex {
     std::uint32_t hint = 0;
     return rank(key, hint);
   }
+  /// Ranks of many voxels (equal lengths): what the next ones are found by is fetched meanwhile, so that keys in any
+  /// order take half the time.
+  void ranks(std::span<const LatticePoint> keys, std::span<std::uint32_t> ranks) const;
   /// Ranks of the voxel and the 26 around it: ranks[9 (dx + 1) + 3 (dy + 1) + (dz + 1)], kNone where there is none,
   /// also beyond the ends of int32. Less than half the time of 26 calls of rank().
   void ranks_around(const LatticePoint& key, std::uint32_t& hint, std::array<std::uint32_t, 27>& ranks) const;
@@ -133,11 +136,15 @@ class VoxelIndex {
     return {block.x * kBlockSide + along(2), block.y * kBlockSide + along(1), block.z * kBlockSide + along(0)};
   }
   std::size_t block_of_rank(std::uint32_t rank) const;
+  void ranks_of_some(std::span<const LatticePoint> keys, std::span<std::uint32_t> ranks) const;
   void add_slots();
+  static std::size_t word_of(const Entry& entry, std::uint32_t part) {
+    return entry.first_word + (entry.parts >> 3 * ((part - 1) & 7) & 7);
+  }
   Part part_of(const Entry& entry, std::uint32_t part) const {
     if ((entry.parts >> (24 + part) & 1) == 0) return {0, 0};
     const auto before = static_cast<std::uint32_t>(entry.before >> 9 * ((part - 1) & 7) & 511);
-    return {words_[entry.first_word + (entry.parts >> 3 * ((part - 1) & 7) & 7)], entry.first_rank + before};
+    return {words_[word_of(entry, part)], entry.first_rank + before};
   }
   std::uint32_t rank_in(const Entry& entry, std::uint32_t place) const {
     const Part part = part_of(entry, place >> 6);

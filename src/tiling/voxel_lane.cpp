@@ -29,13 +29,22 @@ struct VoxelLane::Batch {
   std::array<std::int32_t, kBatch> x{}, y{}, z{};
   std::array<std::uint32_t, kBatch> offset_x{}, offset_y{}, offset_z{}, hash{};
 
+  std::array<RawColour, kBatch> colours;
+
   LatticePoint key(std::size_t i) const { return {x[i], y[i], z[i]}; }
 
-  void fill(const VoxelGrid& grid, std::span<const LatticePoint> positions) {
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      offset_x[i] = static_cast<std::uint32_t>(positions[i].x);
-      offset_y[i] = static_cast<std::uint32_t>(positions[i].y);
-      offset_z[i] = static_cast<std::uint32_t>(positions[i].z);
+  /// @param place  of the i-th among all points.
+  template <class Place>
+  void fill(const VoxelGrid& grid, std::span<const LatticePoint> positions, std::span<const RawColour> all_colours,
+            std::size_t count, const Place& place) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const LatticePoint& p = positions[place(i)];
+      offset_x[i] = static_cast<std::uint32_t>(p.x);
+      offset_y[i] = static_cast<std::uint32_t>(p.y);
+      offset_z[i] = static_cast<std::uint32_t>(p.z);
+    }
+    if (!all_colours.empty()) {
+      for (std::size_t i = 0; i < count; ++i) colours[i] = all_colours[place(i)];
     }
 #if ARRIS_AVX2_VERSIONS
     if (may_use_avx2()) return divide_avx2(grid);
@@ -136,29 +145,18 @@ inline std::uint32_t VoxelLane::find_or_begin(const LatticePoint& key, std::uint
   return index;
 }
 
-/// @return how many of the batch it has looked at.
-template <bool kColours, bool kAll>
-std::size_t VoxelLane::add_batch(const Batch& batch, std::size_t count, const RawColour* colours) {
+/// @return how many of the batch are added.
+template <bool kColours>
+std::size_t VoxelLane::add_batch(const Batch& batch, std::size_t count) {
   if (slots_.size() == 0) rehash(first_slots_);
-  std::array<std::uint8_t, kBatch> own;
-  std::size_t size = count;
-  if constexpr (!kAll) {
-    size = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      own[size] = static_cast<std::uint8_t>(i);
-      size += (batch.hash[i] >> kLaneBits & (blocks_.lanes - 1)) == number_;
-    }
-  }
-  const auto place = [&](std::size_t i) { return kAll ? i : std::size_t{own[i]}; };
   // Most misses of the cache are over before the points are added one by one.
-  for (std::size_t i = 0; i < size; ++i) slots_.prefetch(batch.hash[place(i)]);
-  for (std::size_t i = 0; i < size; ++i) {
-    const std::uint32_t guess = slots_.first(batch.hash[place(i)]);
+  for (std::size_t i = 0; i < count; ++i) slots_.prefetch(batch.hash[i]);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t guess = slots_.first(batch.hash[i]);
     if (guess != HashSlots::kNone) prefetch(&sums_[guess]);
   }
   std::uint32_t index = kFull;
-  for (std::size_t j = 0; j < size; ++j) {
-    const std::size_t i = place(j);
+  for (std::size_t i = 0; i < count; ++i) {
     const LatticePoint key = batch.key(i);
     if (index == kFull || !(sums_[index].key == key) || sums_[index].points >= most_points_) {
       index = find_or_begin(key, batch.hash[i]);
@@ -170,28 +168,51 @@ std::size_t VoxelLane::add_batch(const Batch& batch, std::size_t count, const Ra
     sums.offset[1] += batch.offset_y[i];
     sums.offset[2] += batch.offset_z[i];
     if constexpr (kColours) {
-      for (std::size_t channel = 0; channel < 3; ++channel) colours_[index][channel] += colours[i][channel];
+      for (std::size_t channel = 0; channel < 3; ++channel) colours_[index][channel] += batch.colours[i][channel];
     }
   }
   return count;
 }
 
-std::size_t VoxelLane::add(std::span<const LatticePoint> positions, std::span<const RawColour> colours,
-                           std::size_t from) {
+/// Batch by batch. @param place  of the i-th point to be added among all.
+template <class Place>
+std::size_t VoxelLane::add_each(std::span<const LatticePoint> positions, std::span<const RawColour> colours,
+                                std::size_t size, const Place& place) {
   Batch batch;
-  const bool all = blocks_.lanes == 1;
-  for (std::size_t done = from; done < positions.size();) {
-    const std::size_t count = std::min(kBatch, positions.size() - done);
-    batch.fill(grid_, positions.subspan(done, count));
-    const RawColour* const of_batch = colours.empty() ? nullptr : colours.data() + done;
-    const std::size_t added =
-        colours.empty()
-            ? (all ? add_batch<false, true>(batch, count, nullptr) : add_batch<false, false>(batch, count, nullptr))
-            : (all ? add_batch<true, true>(batch, count, of_batch) : add_batch<true, false>(batch, count, of_batch));
+  for (std::size_t done = 0; done < size;) {
+    const std::size_t count = std::min(kBatch, size - done);
+    batch.fill(grid_, positions, colours, count, [&](std::size_t i) { return place(done + i); });
+    const std::size_t added = colours.empty() ? add_batch<false>(batch, count) : add_batch<true>(batch, count);
     done += added;
     if (added < count) return done;
   }
-  return positions.size();
+  return size;
+}
+
+std::size_t VoxelLane::add(std::span<const LatticePoint> positions, std::span<const RawColour> colours,
+                           std::span<const std::uint32_t> own) {
+  return add_each(positions, colours, own.size(), [&](std::size_t i) { return own[i]; });
+}
+
+std::size_t VoxelLane::add_all(std::span<const LatticePoint> positions, std::span<const RawColour> colours) {
+  return add_each(positions, colours, positions.size(), [](std::size_t i) { return i; });
+}
+
+void VoxelLane::deal(const VoxelGrid& grid, std::span<const LatticePoint> positions, std::span<LanePoints> lanes) {
+  std::array<std::uint32_t*, kMostLanes> ends;
+  for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+    lanes[lane].resize(positions.size());
+    ends[lane] = lanes[lane].data();
+  }
+  Batch batch;
+  for (std::size_t begin = 0; begin < positions.size(); begin += kBatch) {
+    const std::size_t count = std::min(kBatch, positions.size() - begin);
+    batch.fill(grid, positions, {}, count, [&](std::size_t i) { return begin + i; });
+    for (std::size_t i = 0; i < count; ++i)
+      *ends[batch.hash[i] >> kLaneBits & (lanes.size() - 1)]++ = static_cast<std::uint32_t>(begin + i);
+  }
+  for (std::size_t lane = 0; lane < lanes.size(); ++lane)
+    lanes[lane].resize(static_cast<std::size_t>(ends[lane] - lanes[lane].data()));
 }
 
 }  // namespace arris::tiling

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/voxel.h"
 #include "tiling/hash_slots.h"
@@ -21,8 +22,10 @@ struct LaneBlocks {
   std::size_t index(std::size_t lane, std::size_t i) const { return (i / kSize * lanes + lane) * kSize + i % kSize; }
 };
 
-/// Voxels are dealt out to lanes by their hashes: each lane looks at all points and adds those of its voxels, so that
-/// lanes run side by side and share nothing. Sums lie in the order of their first points; slots with open addressing
+/// Points of a lane, by their places among others.
+using LanePoints = std::vector<std::uint32_t>;
+
+/// Voxels are dealt out to lanes by their hashes, so that lanes run side by side and share nothing. Sums lie in the order of their first points; slots with open addressing
 /// lead to them. A sum that is full (most_points_summed) is left and another one begun for the same voxel, so 32 bits
 /// suffice. Not thread-safe.
 class VoxelLane {
@@ -39,9 +42,15 @@ class VoxelLane {
   /// From here on there are colours. @param colours  of all lanes, beside the other sums.
   void start_colours(ColourSums* colours);
 
-  /// Adds its points from `from` on; returns where it stopped: before the end only if it is full.
-  /// @param colours  as many as positions, or none.
-  std::size_t add(std::span<const LatticePoint> positions, std::span<const RawColour> colours, std::size_t from);
+  /// Which of the points are whose. @param lanes  as many as there are.
+  static void deal(const VoxelGrid& grid, std::span<const LatticePoint> positions, std::span<LanePoints> lanes);
+
+  /// Adds its points; returns how many of them: fewer than all only if it is full.
+  /// @param colours  as many as positions, or none. @param own  places of its points.
+  std::size_t add(std::span<const LatticePoint> positions, std::span<const RawColour> colours,
+                  std::span<const std::uint32_t> own);
+  /// The same where all points are its own.
+  std::size_t add_all(std::span<const LatticePoint> positions, std::span<const RawColour> colours);
   std::size_t size() const { return size_; }
   void free_slots();
   /// To be called when the sums were taken.
@@ -49,8 +58,11 @@ class VoxelLane {
 
  private:
   struct Batch;
-  template <bool kColours, bool kAll>
-  std::size_t add_batch(const Batch& batch, std::size_t count, const RawColour* colours);
+  template <bool kColours>
+  std::size_t add_batch(const Batch& batch, std::size_t count);
+  template <class Place>
+  std::size_t add_each(std::span<const LatticePoint> positions, std::span<const RawColour> colours, std::size_t size,
+                       const Place& place);
   std::size_t find(const LatticePoint& key, std::uint32_t hash) const;
   std::uint32_t find_or_begin(const LatticePoint& key, std::uint32_t hash);
   std::uint32_t begin_sum(const LatticePoint& key);

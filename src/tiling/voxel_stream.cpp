@@ -6,13 +6,11 @@ namespace arris::tiling {
 
 VoxelStream::VoxelStream(VoxelTable& table, const std::function<bool(VoxelPoints&)>& fill)
     : table_(table), fill_(fill), batches_(table.lanes() + 2) {
-  for (Batch& batch : batches_) batch.looked_at.assign(table.lanes(), 0);
+  for (Batch& batch : batches_) table.deal({}, batch.dealt);
 }
 
 void VoxelStream::add(Batch& batch, std::size_t lane) {
-  std::size_t& looked_at = batch.looked_at[lane];
-  looked_at = table_.add_to_lane(lane, batch.points.positions, batch.points.colours, looked_at);
-  if (looked_at < batch.points.positions.size()) full_ = true;
+  if (!table_.add_to_lane(lane, batch.points.positions, batch.points.colours, batch.dealt)) full_ = true;
 }
 
 /// Of batches that lanes did not come to the end of. False: the table is full again.
@@ -27,22 +25,23 @@ bool VoxelStream::add_rest() {
 bool VoxelStream::run() {
   if (!add_rest()) return false;
   if (ended_) return true;
-  std::vector<Stage> lanes;
+  std::vector<Stage> stages{{StageOrder::kAnyOrder, [this](std::size_t place) {
+                               table_.deal(batches_[place].points.positions, batches_[place].dealt);
+                             }}};
   for (std::size_t lane = 0; lane < table_.lanes(); ++lane) {
-    lanes.push_back({StageOrder::kInTurn, [this, lane](std::size_t place) {
-                       if (!full_) add(batches_[place], lane);
-                     }});
+    stages.push_back({StageOrder::kInTurn, [this, lane](std::size_t place) {
+                        if (!full_) add(batches_[place], lane);
+                      }});
   }
   const auto fill = [this](std::size_t place) {
     if (full_) return false;
     Batch& batch = batches_[place];
     batch.points.positions.clear();
     batch.points.colours.clear();
-    batch.looked_at.assign(table_.lanes(), 0);
     ended_ = !fill_(batch.points);
     return !ended_;
   };
-  run_stages(batches_.size(), fill, lanes);
+  run_stages(batches_.size(), fill, stages);
   return !full_;
 }
 

@@ -31,7 +31,7 @@ class VoxelStream {
  private:
   struct Batch {
     VoxelPoints points;
-    std::vector<std::size_t> looked_at;  ///< By each lane.
+    VoxelTable::Dealt dealt;
   };
   void add(Batch& batch, std::size_t lane);
   bool add_rest();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <numeric>
 
 #include "core/parallel.h"
 
@@ -35,7 +36,6 @@ VoxelTable::VoxelTable(const VoxelGrid& grid, std::size_t size_bytes, std::size_
   sums_ = PageArray<VoxelSums>(room());
   for (std::uint32_t i = 0; i < blocks_.lanes; ++i)
     lanes_.emplace_back(grid, i, blocks_, &sums_[0], likely_sums / blocks_.lanes);
-  looked_at_.assign(blocks_.lanes, 0);
   set_limits();
   touch(likely_sums - likely_sums / kUnlikelyShare);
 }
@@ -73,24 +73,40 @@ void VoxelTable::start_colours() {
   for (VoxelLane& lane : lanes_) lane.start_colours(&colours_[0]);
 }
 
-std::size_t VoxelTable::add_to_lane(std::size_t lane, std::span<const LatticePoint> positions,
-                                    std::span<const RawColour> colours, std::size_t from) {
-  return lanes_[lane].add(positions, colours, from);
+bool VoxelTable::Dealt::all_added() const {
+  return std::accumulate(added_.begin(), added_.end(), std::size_t{0}) == size_;
+}
+
+void VoxelTable::deal(std::span<const LatticePoint> positions, Dealt& dealt) const {
+  dealt.size_ = positions.size();
+  dealt.added_.assign(lanes_.size(), 0);
+  if (lanes_.size() == 1) return;
+  dealt.own_.resize(lanes_.size());
+  VoxelLane::deal(grid_, positions, dealt.own_);
+}
+
+bool VoxelTable::add_to_lane(std::size_t lane, std::span<const LatticePoint> positions,
+                             std::span<const RawColour> colours, Dealt& dealt) {
+  std::size_t& added = dealt.added_[lane];
+  if (lanes_.size() > 1) {
+    const std::span<const std::uint32_t> own(dealt.own_[lane]);
+    added += lanes_[lane].add(positions, colours, own.subspan(added));
+    return added == own.size();
+  }
+  added += lanes_[lane].add_all(positions.subspan(added), colours.empty() ? colours : colours.subspan(added));
+  return added == positions.size();
 }
 
 bool VoxelTable::add(std::span<const LatticePoint> positions, std::span<const RawColour> colours) {
   if (!colours.empty()) start_colours();
-  const auto add_to = [&](std::size_t lane) {
-    looked_at_[lane] = add_to_lane(lane, positions, colours, looked_at_[lane]);
-  };
+  if (dealt_.all_added()) deal(positions, dealt_);
+  const auto add_to = [&](std::size_t lane) { add_to_lane(lane, positions, colours, dealt_); };
   if (positions.size() < kLeastPoints) {
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) add_to(lane);
   } else {
     parallel_for_chunks(lanes_.size(), 1, [&](std::size_t lane, std::size_t) { add_to(lane); });
   }
-  if (!std::ranges::all_of(looked_at_, [&](std::size_t at) { return at == positions.size(); })) return false;
-  std::ranges::fill(looked_at_, 0);
-  return true;
+  return dealt_.all_added();
 }
 
 std::size_t VoxelTable::size() const {

@@ -30,10 +30,23 @@ class VoxelTable {
   /// @param colours  as many as positions, or none.
   bool add(std::span<const LatticePoint> positions, std::span<const RawColour> colours);
   std::size_t lanes() const { return lanes_.size(); }
-  /// Adds the points of one lane's voxels, from `from` on; returns where it stopped, before the end if the lane is
-  /// full. Different lanes may be added to at the same time, colours only after start_colours().
-  std::size_t add_to_lane(std::size_t lane, std::span<const LatticePoint> positions, std::span<const RawColour> colours,
-                          std::size_t from);
+  /// Points on their way into the lanes.
+  class Dealt {
+   public:
+    bool all_added() const;
+
+   private:
+    friend class VoxelTable;
+    std::vector<LanePoints> own_;     ///< Of each lane; none where there is one lane only.
+    std::vector<std::size_t> added_;  ///< Of those.
+    std::size_t size_ = 0;
+  };
+  /// Deals points out to the lanes. May be called by several threads.
+  void deal(std::span<const LatticePoint> positions, Dealt& dealt) const;
+  /// Adds the points of one lane that are not added yet; false if the lane is full. Different lanes may be added to at
+  /// the same time, colours only after start_colours(). @param positions, colours  that were dealt out.
+  bool add_to_lane(std::size_t lane, std::span<const LatticePoint> positions, std::span<const RawColour> colours,
+                   Dealt& dealt);
   /// Makes room for them if there is none yet.
   void start_colours();
   bool empty() const { return size() == 0; }
@@ -79,7 +92,7 @@ class VoxelTable {
   PageArray<VoxelSums> sums_;
   PageArray<ColourSums> colours_;  // Beside sums_, if has_colours_.
   std::vector<VoxelLane> lanes_;
-  std::vector<std::size_t> looked_at_;  // By each lane, of points that were not all added.
+  Dealt dealt_;  // Of points that were not all added.
 };
 
 }  // namespace arris::tiling

@@ -123,7 +123,11 @@ TEST_F(SupervoxelStage, Supervoxels_AreOfTheSizeAskedForAndLieOnOneFace) {
   std::map<std::uint32_t, LatticeBox> boxes;
   const std::int32_t far = 150 + 10 * 20;
   std::size_t clear = 0;
-  for (const LatticePoint& p : positions()) {
+  const std::vector<LatticePoint> all = positions();
+  std::vector<std::uint32_t> ids(all.size());
+  labels.find(all, ids);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const LatticePoint& p = all[i];
     int face = -1;
     int on = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -133,7 +137,7 @@ TEST_F(SupervoxelStage, Supervoxels_AreOfTheSizeAskedForAndLieOnOneFace) {
         ++on;
       }
     }
-    const std::uint32_t id = labels.at(p);
+    const std::uint32_t id = ids[i];
     ASSERT_NE(id, 0U);
     boxes[id].include(p);
     if (on != 1) continue;

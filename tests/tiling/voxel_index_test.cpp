@@ -54,6 +54,8 @@ RC_GTEST_PROP(VoxelIndex, AnyKeys_HaveTheirRanksAndOthersNone, ()) {
 
   auto hint = *rc::gen::arbitrary<std::uint32_t>().as("hint");
   std::mt19937_64 random(keys.size());
+  std::vector<LatticePoint> asked;
+  std::vector<std::uint32_t> answers;
   for (int i = 0; i < 3000; ++i) {
     LatticePoint key = keys[random() % keys.size()];
     const auto moved = [&](std::int32_t v) {
@@ -65,7 +67,17 @@ RC_GTEST_PROP(VoxelIndex, AnyKeys_HaveTheirRanksAndOthersNone, ()) {
     const std::uint32_t expected = found == ranks.end() ? VoxelIndex::kNone : found->second;
     RC_ASSERT(index.rank(key, hint) == expected);
     RC_ASSERT(index.rank(key) == expected);
+    asked.push_back(key);
+    answers.push_back(expected);
   }
+  std::vector<std::uint32_t> found(asked.size());
+  index.ranks(asked, found);
+  RC_ASSERT(found == answers);
+  // Neighbours one after another, as scans have them, and none at all.
+  found.assign(keys.size(), VoxelIndex::kNone);
+  index.ranks(keys, found);
+  for (std::size_t i = 0; i < keys.size(); ++i) RC_ASSERT(found[i] == i);
+  index.ranks({}, {});
 }
 
 RC_GTEST_PROP(VoxelIndex, RanksAround_AreThoseOfTheNeighbours, ()) {
@@ -169,6 +181,10 @@ TEST(VoxelIndex, Empty_HasNoVoxel) {
   EXPECT_EQ(index.size(), 0U);
   EXPECT_TRUE(index.bounds().empty());
   EXPECT_EQ(index.rank({0, 0, 0}), VoxelIndex::kNone);
+  const LatticePoint key{0, 0, 0};
+  std::uint32_t rank = 7;
+  index.ranks({&key, 1}, {&rank, 1});
+  EXPECT_EQ(rank, VoxelIndex::kNone);
   EXPECT_EQ(index.blocks(), 0U);
   EXPECT_TRUE(select_blocks(index, {{-9, -9, -9}, {9, 9, 9}}).empty());
 }

@@ -1,6 +1,7 @@
 #include "features/supervoxel/cluster_growth.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <vector>
 
@@ -42,7 +43,9 @@ class Growth {
   Growth(const VoxelTile& tile, const Distance& distance)
       : tile_(tile), distance_(distance), parts_(part_count(tile.size())) {
     part_voxels_ = static_cast<std::uint32_t>((tile.size() + parts_.size() - 1) / parts_.size());
-    for (Part& part : parts_) part.sent.resize(parts_.size());
+    for (Part& part : parts_) {
+      for (std::vector<PageVector<Offer>>& sent : part.sent) sent.resize(parts_.size());
+    }
     state_.resize(tile.size());
     touched_.resize(tile.size());
     parallel_for_chunks(tile.size(), kSweepGrain, [&](std::size_t begin, std::size_t end) {
@@ -54,18 +57,25 @@ class Growth {
   void seed(std::span<const TileSeed> seeds) {
     for (const TileSeed& s : seeds) {
       state_[s.voxel] = seed_state(s.cluster);
-      parts_[part_of(s.voxel)].frontier.push_back(s);
+      parts_[part_of(s.voxel)].won.push_back(s.voxel);
     }
   }
 
-  /// One level: offers of the frontier, which then is what they won.
-  void advance() {
-    parallel_for_chunks(parts_.size(), 1, [&](std::size_t part, std::size_t) { make_offers(part); });
-    parallel_for_chunks(parts_.size(), 1, [&](std::size_t part, std::size_t) { take_offers(part); });
+  /// One level: what was won at the one before is the frontier and makes offers. False: it is empty. A part goes on
+  /// while others still take what was offered before: what it sends now lies elsewhere.
+  bool advance() {
+    sent_last_ ^= 1;
+    parallel_for_chunks(parts_.size(), 1, [&](std::size_t part, std::size_t) {
+      take_offers(part);
+      make_offers(part);
+    });
+    return std::ranges::any_of(parts_, [](const Part& part) { return !part.frontier.empty(); });
   }
 
-  bool done() const {
-    return std::ranges::all_of(parts_, [](const Part& part) { return part.frontier.empty(); });
+  /// Offers of the last level are taken.
+  void finish() {
+    sent_last_ ^= 1;
+    parallel_for_chunks(parts_.size(), 1, [&](std::size_t part, std::size_t) { take_offers(part); });
   }
 
   PageVector<std::uint32_t> clusters() const {
@@ -83,8 +93,8 @@ class Growth {
   };
   struct alignas(64) Part {
     PageVector<TileSeed> frontier;
-    PageVector<std::uint32_t> won;        ///< At this level.
-    std::vector<PageVector<Offer>> sent;  ///< To every part.
+    PageVector<std::uint32_t> won;                       ///< Since the frontier was made.
+    std::array<std::vector<PageVector<Offer>>, 2> sent;  ///< To every part, at this level and the one before.
   };
 
   std::size_t part_of(std::uint32_t voxel) const { return parts_.size() == 1 ? 0 : voxel / part_voxels_; }
@@ -103,7 +113,7 @@ class Growth {
 
   void make_offers(std::size_t own) {
     Part& part = parts_[own];
-    part.won.clear();
+    std::vector<PageVector<Offer>>& sent = part.sent[sent_last_ ^ 1];
     const std::uint32_t begin = static_cast<std::uint32_t>(own) * part_voxels_;
     for (std::size_t i = 0; i < part.frontier.size(); ++i) {
       look_ahead(part.frontier, i);
@@ -115,7 +125,7 @@ class Growth {
         if (is_own) {
           take(part, {mine, voxel});
         } else {
-          part.sent[part_of(voxel)].push_back({mine, voxel});
+          sent[part_of(voxel)].push_back({mine, voxel});
         }
       }
     }
@@ -124,14 +134,16 @@ class Growth {
   void take_offers(std::size_t own) {
     Part& part = parts_[own];
     for (Part& from : parts_) {
-      for (const Offer& sent : from.sent[own]) take(part, sent);
-      from.sent[own].clear();
+      PageVector<Offer>& sent = from.sent[sent_last_][own];
+      for (const Offer& made : sent) take(part, made);
+      sent.clear();
     }
     part.frontier.clear();
     for (const std::uint32_t voxel : part.won) {
       part.frontier.push_back({voxel, cluster_of(state_[voxel])});
       touched_[voxel] = 0;
     }
+    part.won.clear();
   }
 
   /// A voxel that changes hands twice in a level is still one of the next frontier.
@@ -149,6 +161,7 @@ class Growth {
   const Distance& distance_;
   std::vector<Part> parts_;
   std::uint32_t part_voxels_ = 0;
+  std::size_t sent_last_ = 0;  // Of Part::sent: what is taken now.
   PageVector<std::uint64_t> state_;
   PageVector<std::uint8_t> touched_;
 };
@@ -158,7 +171,9 @@ PageVector<std::uint32_t> grow(const VoxelTile& tile, std::span<const TileSeed> 
                                int levels) {
   Growth<Distance> growth(tile, distance);
   growth.seed(seeds);
-  for (int level = 0; level < levels && !growth.done(); ++level) growth.advance();
+  for (int level = 0; level < levels && growth.advance(); ++level) {
+  }
+  growth.finish();
   return growth.clusters();
 }
 
