@@ -1,6 +1,7 @@
 """Makes clouds, runs all jobs on them in turn, and writes the records, the table and the plot."""
 
 import argparse
+import glob
 import json
 import os
 import statistics
@@ -10,7 +11,7 @@ from types import SimpleNamespace
 from . import report
 from .clouds import make_cloud
 from .jobs import jobs_for
-from .measure import Failure, run
+from .measure import Failure, run, wall_of_all
 
 GIB = 1 << 30
 
@@ -25,6 +26,8 @@ def parse(arguments):
     parser.add_argument("--runs", type=int, default=3, help="medians are of so many, in turn (default: %(default)s)")
     parser.add_argument("--memory", default="1GiB", help="budget of arris (default: %(default)s)")
     parser.add_argument("--threads", type=int, nargs="+", default=[1], help="of arris, each in every turn; of peers the first")
+    parser.add_argument("--beside", action="store_true",
+                        help="as many processes at once as the last of --threads, too, each with the first: what the machine gives")
     parser.add_argument("--only", default="", help="jobs whose task or name has this in it")
     return parser.parse_args(arguments)
 
@@ -32,18 +35,18 @@ def parse(arguments):
 def measure(job, places, settings):
     """The record of one run; what a report of arris says of it beside."""
     told = os.path.join(places.work, "report.json")
-    if os.path.exists(told):
-        os.remove(told)
     limit = round(settings.peer_memory_gib * GIB) if job.peer else None
-    out = os.path.join(places.work, "out.las")
-    if os.path.exists(out):  # Its pages would be given up while others are written.
-        os.remove(out)
+    # Pages of an output would be given up while others are written.
+    for old in glob.glob(os.path.join(places.work, "out*.las")) + glob.glob(os.path.join(places.work, "report*.json")):
+        os.remove(old)
     record = run(job.command, places.temp, limit, job.environment)
     if not job.peer:
         with open(told) as file:
             said = json.load(file)
         record["predicted_peak_mib"] = said["memory"]["predicted_peak_bytes"] / 2**20
         record["predicted_temp_bytes"] = said["temp"]["predicted_bytes"]
+    if job.copies:
+        record["copies_wall_s"] = wall_of_all(job.copies)
     return record
 
 

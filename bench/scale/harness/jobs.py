@@ -13,6 +13,7 @@ class Job:
     threads: int = 1
     most_millions: float = float("inf")  # Takes too long for more.
     environment: dict = field(default_factory=dict)
+    copies: list = field(default_factory=list)  # Commands that do the same at the same time.
 
     @property
     def available(self):
@@ -27,11 +28,17 @@ def jobs_for(cloud, places, settings):
     def arris(task, *options):
         """With every number of threads."""
         verb, *more = options
-        command = [os.path.join(places.bin, "arris"), verb, cloud.path, "-o", out, "--overwrite", "-q", *more]
-        command += ["--memory", settings.memory, "--temp-dir", places.temp]
-        command += ["--report", os.path.join(places.work, "report.json")]
-        return [Job(task, "arris " + " ".join(options), command + ["--threads", str(count)], False, count)
-                for count in settings.threads]
+
+        def command(count, copy=""):
+            return [os.path.join(places.bin, "arris"), verb, cloud.path, *more, "--overwrite", "-q",
+                    "-o", os.path.join(places.work, f"out{copy}.las"),
+                    "--report", os.path.join(places.work, f"report{copy}.json"),
+                    "--memory", settings.memory, "--temp-dir", places.temp, "--threads", str(count)]
+
+        jobs = [Job(task, "arris " + " ".join(options), command(count), False, count) for count in settings.threads]
+        if settings.beside:
+            jobs[0].copies = [command(settings.threads[0], f"-{copy}") for copy in range(settings.threads[-1])]
+        return jobs
 
     def peer(task, name, program, *arguments, **environment):
         return Job(task, name, [os.path.join(places.bin, program), cloud.path, *arguments],
