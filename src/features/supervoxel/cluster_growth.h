@@ -23,9 +23,9 @@ struct TileSeed {
 /// cluster offers the voxels around those it won at the level before its distance D to them; a voxel goes to the
 /// smallest (D, cluster) that it was ever offered. A seed's voxel stays with it. Centres do not move meanwhile.
 ///
-/// Laws: (1) the result depends on voxels, seeds and centres only: offers are collected by an atomic minimum, which no
-/// order of threads can change; (2) the cluster of a voxel depends on nothing that lies more than scale.levels voxels
-/// away (Chebyshev), the features' own rings aside. O(voxels * neighbours * small factor). 9 bytes per voxel and the
+/// Laws: (1) the result depends on voxels, seeds and centres only: of the offers of a level the smallest wins, in
+/// whatever order they come; (2) the cluster of a voxel depends on nothing that lies more than scale.levels voxels away
+/// (Chebyshev), the features' own rings aside. O(voxels * neighbours * small factor). 9 bytes per voxel and the
 /// frontiers. Runs in parallel.
 PageVector<std::uint32_t> grow_clusters(const VoxelTile& tile, const VoxelFeatures& features, const Clusters& clusters,
                                         std::span<const TileSeed> seeds, const SupervoxelParameters& parameters,
