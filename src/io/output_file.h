@@ -44,7 +44,7 @@ class OutputFile {
   bool overwrite_;
   int descriptor_ = -1;
   std::uint64_t size_bytes_ = 0;
-  Writeback writeback_{std::uint64_t{8} << 20};
+  Writeback writeback_{std::uint64_t{8} << 20, std::uint64_t{256} << 20};
   std::size_t buffered_ = 0;
   std::unique_ptr<std::byte[]> buffer_;
 };
