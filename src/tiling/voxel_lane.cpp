@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 
-#include "core/avx2.h"
 #include "core/prefetch.h"
+#include "tiling/voxel_batch.h"
 #include "tiling/voxel_hash.h"
 
 namespace arris::tiling {
 namespace {
 
-constexpr std::size_t kBatch = 128;
+constexpr std::size_t kBatch = VoxelBatch::kSize;
 constexpr std::size_t kFirstSlots = std::size_t{1} << 16;
 constexpr std::size_t kGrowth = 8;
 // Where it is known how many sums are likely there are never many more.
@@ -23,57 +23,6 @@ constexpr std::size_t kSlotsPerSum = 3;
 constexpr int kLaneBits = 8;
 
 }  // namespace
-
-/// Voxels of the points of a batch, by arrays.
-struct VoxelLane::Batch {
-  std::array<std::int32_t, kBatch> x{}, y{}, z{};
-  std::array<std::uint32_t, kBatch> offset_x{}, offset_y{}, offset_z{}, hash{};
-
-  std::array<RawColour, kBatch> colours;
-
-  LatticePoint key(std::size_t i) const { return {x[i], y[i], z[i]}; }
-
-  /// @param place  of the i-th among all points.
-  template <class Place>
-  void fill(const VoxelGrid& grid, std::span<const LatticePoint> positions, std::span<const RawColour> all_colours,
-            std::size_t count, const Place& place) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const LatticePoint& p = positions[place(i)];
-      offset_x[i] = static_cast<std::uint32_t>(p.x);
-      offset_y[i] = static_cast<std::uint32_t>(p.y);
-      offset_z[i] = static_cast<std::uint32_t>(p.z);
-    }
-    if (!all_colours.empty()) {
-      for (std::size_t i = 0; i < count; ++i) colours[i] = all_colours[place(i)];
-    }
-#if ARRIS_AVX2_VERSIONS
-    if (may_use_avx2()) return divide_avx2(grid);
-#endif
-    divide(grid);
-  }
-
- private:
-  /// Whole arrays, axis by axis: these loops vectorise. Integers and one product each: the same bits everywhere.
-  __attribute__((always_inline)) void divide(const VoxelGrid& grid) {
-    divide(grid, offset_x, x);
-    divide(grid, offset_y, y);
-    divide(grid, offset_z, z);
-    for (std::size_t i = 0; i < kBatch; ++i) hash[i] = voxel_hash(x[i], y[i], z[i]);
-  }
-  /// Positions become offsets in voxels.
-  __attribute__((always_inline)) static void divide(const VoxelGrid& grid, std::array<std::uint32_t, kBatch>& offset,
-                                                    std::array<std::int32_t, kBatch>& voxel) {
-    for (std::size_t i = 0; i < kBatch; ++i) {
-      voxel[i] = grid.voxel_of(static_cast<std::int32_t>(offset[i]));
-      offset[i] -= grid.low_corner(voxel[i]);
-    }
-  }
-#if ARRIS_AVX2_VERSIONS
-  __attribute__((target("avx2"))) void divide_avx2(const VoxelGrid& grid) {
-    divide(grid);
-  }
-#endif
-};
 
 VoxelLane::VoxelLane(const VoxelGrid& grid, std::uint32_t number, const LaneBlocks& blocks, VoxelSums* sums,
                      std::size_t likely_sums)
@@ -147,7 +96,7 @@ inline std::uint32_t VoxelLane::find_or_begin(const LatticePoint& key, std::uint
 
 /// @return how many of the batch are added.
 template <bool kColours>
-std::size_t VoxelLane::add_batch(const Batch& batch, std::size_t count) {
+std::size_t VoxelLane::add_batch(const VoxelBatch& batch, std::size_t count) {
   if (slots_.size() == 0) rehash(first_slots_);
   // Most misses of the cache are over before the points are added one by one.
   for (std::size_t i = 0; i < count; ++i) slots_.prefetch(batch.hash[i]);
@@ -178,7 +127,7 @@ std::size_t VoxelLane::add_batch(const Batch& batch, std::size_t count) {
 template <class Place>
 std::size_t VoxelLane::add_each(std::span<const LatticePoint> positions, std::span<const RawColour> colours,
                                 std::size_t size, const Place& place) {
-  Batch batch;
+  VoxelBatch batch;
   for (std::size_t done = 0; done < size;) {
     const std::size_t count = std::min(kBatch, size - done);
     batch.fill(grid_, positions, colours, count, [&](std::size_t i) { return place(done + i); });
@@ -204,7 +153,7 @@ void VoxelLane::deal(const VoxelGrid& grid, std::span<const LatticePoint> positi
     lanes[lane].resize(positions.size());
     ends[lane] = lanes[lane].data();
   }
-  Batch batch;
+  VoxelBatch batch;
   for (std::size_t begin = 0; begin < positions.size(); begin += kBatch) {
     const std::size_t count = std::min(kBatch, positions.size() - begin);
     batch.fill(grid, positions, {}, count, [&](std::size_t i) { return begin + i; });

@@ -12,6 +12,8 @@
 
 namespace arris::tiling {
 
+struct VoxelBatch;
+
 /// How lanes share an array: a block for the first, one for the second and so on, again and again, so that there are
 /// hardly any holes when they hold about as much as each other.
 struct LaneBlocks {
@@ -57,9 +59,8 @@ class VoxelLane {
   void clear() { size_ = 0; }
 
  private:
-  struct Batch;
   template <bool kColours>
-  std::size_t add_batch(const Batch& batch, std::size_t count);
+  std::size_t add_batch(const VoxelBatch& batch, std::size_t count);
   template <class Place>
   std::size_t add_each(std::span<const LatticePoint> positions, std::span<const RawColour> colours, std::size_t size,
                        const Place& place);

@@ -39,6 +39,7 @@ bool VoxelStream::run() {
     batch.points.positions.clear();
     batch.points.colours.clear();
     ended_ = !fill_(batch.points);
+    if (ended_) table_.deal({}, batch.dealt);  // There is nothing left of what was here before.
     return !ended_;
   };
   run_stages(batches_.size(), fill, stages);
