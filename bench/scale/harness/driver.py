@@ -46,7 +46,7 @@ def measure(job, places, settings):
         record["predicted_peak_mib"] = said["memory"]["predicted_peak_bytes"] / 2**20
         record["predicted_temp_bytes"] = said["temp"]["predicted_bytes"]
     if job.copies:
-        record["copies_wall_s"] = wall_of_all(job.copies)
+        record["copies"], record["copies_wall_s"] = len(job.copies), wall_of_all(job.copies)
     return record
 
 

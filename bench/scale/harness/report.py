@@ -41,10 +41,10 @@ def speed_up(records, record):
         return ""
     pairs = [a["wall_s"] / b["wall_s"] for a, b in zip(first["runs"], record["runs"])]
     gain = f"{first['wall_s'] / record['wall_s']:.2f} ({min(pairs):.2f} to {max(pairs):.2f})"
-    if "copies_wall_s" not in first:
+    if first.get("copies") != record["threads"]:
         return gain
     # So much more gets done in the same time when every thread is a process that shares nothing.
-    return f"{gain}; processes {record['threads'] * first['wall_s'] / first['copies_wall_s']:.2f}"
+    return f"{gain}; processes {first['copies'] * first['wall_s'] / first['copies_wall_s']:.2f}"
 
 
 def foretold(record, quotient):
