@@ -1,10 +1,12 @@
 # cmake --install: the program, the library with its headers, and a package that find_package(arris) finds:
 #   find_package(arris REQUIRED)  target_link_libraries(mine PRIVATE arris::arris_pipeline)
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS arris RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS arris_core arris_io arris_tiling arris_features arris_merge arris_evaluate arris_synth arris_pipeline
+if(NOT ARRIS_SANITIZE)
+  install(TARGETS arris_vdb_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/arris)
+endif()
+install(TARGETS arris_core arris_io arris_tiling arris_vdb arris_vdb_linked arris_features arris_merge arris_evaluate arris_synth arris_pipeline
         EXPORT arrisTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT arrisTargets NAMESPACE arris:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/arris)
 foreach(folder core io tiling features merge evaluate synth pipeline)

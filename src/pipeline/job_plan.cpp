@@ -7,6 +7,7 @@
 #include "pipeline/point_selection.h"
 #include "pipeline/run_support.h"
 #include "pipeline/voxel_estimate.h"
+#include "tiling/point_grid.h"
 
 namespace arris::pipeline {
 namespace {
@@ -37,6 +38,7 @@ JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, Progress
   if (request.method.method == ContourParameters::Method::kArris)
     plan.memory_request.method.likely_share = kArrisLikelyShare;
   plan.memory = plan_memory(plan.memory_request);
+  const tiling::PointGridPreparation preparation;
   plan.survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
   refuse_missing_classes(request, plan.survey);
   plan.method = request.method;

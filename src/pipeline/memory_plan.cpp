@@ -8,6 +8,7 @@
 #include "core/pages.h"
 #include "core/process_memory.h"
 #include "core/text.h"
+#include "tiling/point_grid.h"
 #include "tiling/tile_store.h"
 
 namespace arris::pipeline {
@@ -47,6 +48,10 @@ std::uint64_t bytes_of_tile(std::uint64_t points, const MethodBytes& method) {
 
 }  // namespace
 
+std::uint64_t resident_with_grids() {
+  return resident_bytes() + tiling::point_grid_bytes_to_come();
+}
+
 std::uint64_t MemoryPlan::tile_bytes(std::uint64_t points) const {
   return bytes_of_tile(points, method);
 }
@@ -62,12 +67,12 @@ std::uint64_t MemoryPlan::points_within(std::uint64_t bytes, std::uint64_t most)
 
 std::uint64_t MemoryPlan::widen_bytes() const {
   const auto usable = static_cast<std::uint64_t>(kSafety * static_cast<double>(budget_bytes));
-  const std::uint64_t taken = arris::resident_bytes() - spare_pages_bytes() + scratch_bytes + kWidenBytes;
+  const std::uint64_t taken = resident_with_grids() - spare_pages_bytes() + scratch_bytes + kWidenBytes;
   return std::max(tiles_bytes, usable - std::min(usable, taken));
 }
 
 std::uint64_t least_budget_bytes(std::uint64_t points, const MemoryRequest& request) {
-  const std::uint64_t resident = resident_bytes();
+  const std::uint64_t resident = resident_with_grids();
   std::uint64_t spool = kLeastSpoolBytes;
   for (;;) {
     const std::uint64_t needed = fixed_bytes(request, resident, spool) + bytes_of_tile(points, request.method);
@@ -84,7 +89,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   plan.method = request.method;
   plan.scratch_bytes = scratch_bytes(request);
   plan.spool_buffer_bytes = spool_buffer_bytes(request.budget_bytes);
-  plan.resident_bytes = resident_bytes();
+  plan.resident_bytes = resident_with_grids();
   plan.fixed_bytes = fixed_bytes(request, plan.resident_bytes, plan.spool_buffer_bytes);
   const auto usable = static_cast<std::uint64_t>(kSafety * static_cast<double>(request.budget_bytes));
   if (usable < plan.fixed_bytes + plan.tile_bytes(kLeastTilePoints)) {  // Short of memory: the least buffer.

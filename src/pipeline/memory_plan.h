@@ -7,6 +7,9 @@
 
 namespace arris::pipeline {
 
+/// Of this process now, and what grids of points will add to it in any case.
+std::uint64_t resident_with_grids();
+
 /// What analysing a tile takes beyond the tile itself.
 struct MethodBytes {
   double per_point = 0.0;
@@ -28,7 +31,7 @@ struct MemoryRequest {
 /// The division. fixed_bytes + tile_workers tiles of max_tile_points fit into the budget.
 struct MemoryPlan {
   std::uint64_t budget_bytes = 0;
-  std::uint64_t resident_bytes = 0;  ///< When the plan was made.
+  std::uint64_t resident_bytes = 0;  ///< resident_with_grids(), when the plan was made.
   std::uint64_t fixed_bytes = 0;     ///< Program, survey, buffers, per-thread scratch.
   std::uint64_t tiles_bytes = 0;     ///< What is left for tiles in flight.
   std::uint64_t spool_buffer_bytes = 0;

@@ -12,6 +12,7 @@
 #include "pipeline/job_plan.h"
 #include "pipeline/noise_stage.h"
 #include "pipeline/point_selection.h"
+#include "tiling/point_grid.h"
 
 namespace arris::pipeline {
 namespace {
@@ -109,6 +110,7 @@ SegmentPlan plan_segment_job(io::InputSet& inputs, const SegmentRequest& request
                              SegmentReport& report, Stopwatch& watch, ProgressSink& progress,
                              const CancelToken& cancel) {
   SegmentPlan plan;
+  const tiling::PointGridPreparation preparation;
   plan.intensities = choose_points(inputs, request, report, watch, progress, cancel);
   tiling::Survey survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
   problems.forward();

@@ -118,7 +118,7 @@ double likely_peak_bytes(const TileJob& job, double tiles_bytes) {
   const double threads = likely_of(job).of_thread * kThreadBytes * (job.memory_request.threads - 1);
   const double stays = job.tiles.tiles.size() > 1
                            ? std::min(kProgramBytes + held, static_cast<double>(job.memory.resident_bytes))
-                           : static_cast<double>(arris::resident_bytes());
+                           : static_cast<double>(resident_with_grids());
   const double peak =
       stays + threads + static_cast<double>(job.memory_request.kept_bytes) + std::max(tiles_bytes, gather);
   return std::max(peak, kOfPeakSoFar * static_cast<double>(peak_resident_bytes()));

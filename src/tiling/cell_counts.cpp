@@ -1,6 +1,7 @@
 #include "tiling/cell_counts.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 #include <vector>
@@ -42,25 +43,30 @@ std::uint64_t CellCounts::total() const {
   return impl_->total;
 }
 std::size_t CellCounts::active_cells() const {
-  return impl_->grid.active_cells();
+  return impl_->grid.occupied_cells();
 }
 
 void CellCounts::add(std::span<const LatticePoint> points) {
   Impl& impl = *impl_;
   if (impl.total == 0) impl.level = level_that_fits(points, impl.level, impl.max_leaves);
+  std::array<CellRun, CellGrid::kMostRuns> runs;
   for (std::size_t begin = 0; begin < points.size();) {
-    const Cell cell = cell_of(points[begin], impl.level);
-    const std::size_t end = end_of_run(points, begin, impl.level);
-    impl.grid.add(cell, end - begin);
+    std::size_t count = 0;
+    for (; count < runs.size() && begin < points.size(); ++count) {
+      const std::size_t end = end_of_run(points, begin, impl.level);
+      runs[count] = {cell_of(points[begin], impl.level), end - begin};
+      begin = end;
+    }
+    impl.grid.add(std::span(runs).first(count));
     impl.coarsen_to_fit();
-    begin = end;
   }
   impl.total += points.size();
 }
 
 void CellCounts::add(const LatticePoint& point, std::uint64_t count) {
   if (count == 0) return;
-  impl_->grid.add(cell_of(point, impl_->level), count);
+  const CellRun run{cell_of(point, impl_->level), count};
+  impl_->grid.add(std::span(&run, 1));
   impl_->coarsen_to_fit();
   impl_->total += count;
 }
@@ -85,15 +91,13 @@ std::vector<CellClass> CellCounts::classes() const {
   constexpr std::size_t kFew = 4096;
   std::vector<std::uint64_t> with_few(kFew);  // Nearly all cells, by their points.
   std::map<std::uint64_t, std::uint64_t> with_many;
-  for (const CellLeaf* leaf : impl_->grid.list_leaves()) {
-    impl_->grid.for_each_in(*leaf, [&](openvdb::Index, std::uint64_t points) {
-      if (points < kFew) {
-        ++with_few[points];
-      } else {
-        ++with_many[points];
-      }
-    });
-  }
+  impl_->grid.for_each_count([&](std::uint64_t points) {
+    if (points < kFew) {
+      ++with_few[points];
+    } else {
+      ++with_many[points];
+    }
+  });
   std::vector<CellClass> classes;
   for (std::size_t points = 0; points < kFew; ++points) {
     if (with_few[points] > 0) classes.push_back({points, with_few[points]});
@@ -114,38 +118,32 @@ CellCounts CellCounts::coarsened(int level) const {
 
 void CellCounts::for_each_by_leaf(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const {
   for (const CellLeaf* leaf : impl_->grid.list_leaves()) {
-    impl_->grid.for_each_in(*leaf, [&](openvdb::Index offset, std::uint64_t count) {
-      const openvdb::Coord at = leaf->offsetToGlobalCoord(offset);
-      visit(cell_box({at.x(), at.y(), at.z()}, impl_->level), count);
+    impl_->grid.for_each_in(*leaf, [&](std::uint32_t offset, std::uint64_t count) {
+      visit(cell_box(leaf->cell_at(offset), impl_->level), count);
     });
   }
 }
 
 void CellCounts::for_each(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const {
-  // Ascending order without a list of all cells: leaves are sorted, then rows of leaves are walked plane by plane.
-  std::vector<const CellLeaf*> leaves = impl_->grid.list_leaves();
-  std::ranges::sort(leaves, [](const CellLeaf* a, const CellLeaf* b) { return a->origin() < b->origin(); });
-  const auto same = [&](std::size_t a, std::size_t b, int axes) {
-    for (int axis = 0; axis < axes; ++axis) {
-      if (leaves[a]->origin()[axis] != leaves[b]->origin()[axis]) return false;
-    }
-    return true;
+  // Ascending order without a list of all cells: rows of leaves are walked plane by plane.
+  const std::vector<const CellLeaf*> leaves = impl_->grid.list_leaves();
+  const auto same = [&](std::size_t a, std::size_t b, std::size_t axes) {
+    return std::equal(leaves[a]->origin.begin(), leaves[a]->origin.begin() + static_cast<std::ptrdiff_t>(axes),
+                      leaves[b]->origin.begin());
   };
-  const auto visit_column = [&](const CellLeaf& leaf, std::int32_t dx, std::int32_t dy) {
-    for (std::int32_t dz = 0; dz < 8; ++dz) {
-      const openvdb::Index offset = offset_in_leaf(dx, dy, dz);
-      if (!leaf.isValueOn(offset)) continue;
-      const openvdb::Coord& origin = leaf.origin();
-      const Cell cell{origin.x() + dx, origin.y() + dy, origin.z() + dz};
-      visit(cell_box(cell, impl_->level), impl_->grid.count_at(leaf, offset));
+  const auto visit_column = [&](const CellLeaf& leaf, std::uint32_t dx, std::uint32_t dy) {
+    for (std::uint32_t dz = 0; dz < CellLeaf::kSide; ++dz) {
+      const std::uint32_t offset = dx << 6 | dy << 3 | dz;
+      if (!leaf.is_occupied(offset)) continue;
+      visit(cell_box(leaf.cell_at(offset), impl_->level), impl_->grid.count_at(leaf, offset));
     }
   };
   for (std::size_t slab = 0, slab_end = 0; slab < leaves.size(); slab = slab_end) {
     while (slab_end < leaves.size() && same(slab, slab_end, 1)) ++slab_end;
-    for (std::int32_t dx = 0; dx < 8; ++dx) {
+    for (std::uint32_t dx = 0; dx < CellLeaf::kSide; ++dx) {
       for (std::size_t row = slab, row_end = slab; row < slab_end; row = row_end) {
         while (row_end < slab_end && same(row, row_end, 2)) ++row_end;
-        for (std::int32_t dy = 0; dy < 8; ++dy) {
+        for (std::uint32_t dy = 0; dy < CellLeaf::kSide; ++dy) {
           for (std::size_t leaf = row; leaf < row_end; ++leaf) visit_column(*leaves[leaf], dx, dy);
         }
       }

@@ -1,5 +1,5 @@
 #pragma once
-/// @file Points per absolute cell, sparse, on an OpenVDB Int32 tree that this header does not expose.
+/// @file Points per absolute cell, sparse.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ struct CellClass {
 /// and the counts depend on the set of points only, not on their order: it is the finest level, from first_level on, at
 /// which the whole set fits. Counts above 2^31 - 1 are kept exactly.
 ///
-/// Memory: at most 2.8 kB per leaf (23 MB for 8192 leaves wherever they lie), half as much again for a moment while
+/// Memory: at most 2.3 kB per leaf (19 MB for 8192 leaves wherever they lie), half as much again for a moment while
 /// coarsening. Speed: about 100 M points/s when neighbours in the input are neighbours in space, a hash or map look-up
 /// per point otherwise. Not thread-safe.
 class CellCounts {

@@ -1,5 +1,7 @@
 #include "tiling/cell_grid.h"
 
+#include <array>
+#include <bit>
 #include <memory>
 #include <utility>
 
@@ -11,20 +13,30 @@ namespace {
 constexpr std::size_t kLeavesAhead = 2;
 
 void prefetch_counts(const CellLeaf& leaf) {
-  const std::int32_t* const counts = leaf.buffer().data();
-  constexpr openvdb::Index kCountsOfALine = 64 / sizeof(std::int32_t);
-  for (openvdb::Index offset = 0; offset < CellLeaf::SIZE; offset += kCountsOfALine) prefetch(&counts[offset]);
+  constexpr std::uint32_t kCountsOfALine = 64 / sizeof(std::int32_t);
+  for (std::uint32_t offset = 0; offset < CellLeaf::kCells; offset += kCountsOfALine) prefetch(&leaf.counts[offset]);
 }
 
 }  // namespace
 
-const CellLeafCache::Entry& CellGrid::add_leaf(const Cell& cell) {
-  CellLeaf* const leaf = tree_.touchLeaf(openvdb::Coord(cell[0], cell[1], cell[2]));
-  ++leaves_;
-  return cache_.put(cell[0] >> kCellLeafLog2, cell[1] >> kCellLeafLog2, cell[2] >> kCellLeafLog2, *leaf);
+std::size_t CellGrid::occupied_cells() const {
+  std::size_t cells = 0;
+  for (const auto& leaf : leaves_.all()) {
+    for (const std::uint64_t bits : leaf->occupied) cells += static_cast<std::size_t>(std::popcount(bits));
+  }
+  return cells;
 }
 
-/// @return what stays in the tree.
+void CellGrid::add(std::span<const CellRun> runs) {
+  std::array<CellLeaf*, kMostRuns> leaf;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    leaf[i] = &leaves_.touch(runs[i].cell);
+    prefetch_to_write(&leaf[i]->counts[CellLeaf::offset_of(runs[i].cell)]);
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) add(*leaf[i], CellLeaf::offset_of(runs[i].cell), runs[i].points);
+}
+
+/// @return what stays in the leaf.
 std::uint64_t CellGrid::carry(const Cell& cell, std::uint64_t sum) {
   overflow_[cell] += sum / kCarry * kCarry;
   return sum % kCarry;
@@ -37,51 +49,45 @@ std::uint64_t CellGrid::carried(const Cell& cell) const {
 }
 
 std::uint64_t CellGrid::count_at(const Cell& cell) const {
-  const CellLeaf* const leaf = tree_.probeConstLeaf(openvdb::Coord(cell[0], cell[1], cell[2]));
-  if (!leaf) return 0;
-  return static_cast<std::uint64_t>(leaf->getValue(offset_in_leaf(cell[0], cell[1], cell[2]))) + carried(cell);
+  const CellLeaf* const leaf = leaves_.find(cell);
+  return leaf ? count_at(*leaf, CellLeaf::offset_of(cell)) : 0;
 }
 
 std::vector<const CellLeaf*> CellGrid::list_leaves() const {
   std::vector<const CellLeaf*> leaves;
-  leaves.reserve(leaves_);
-  tree_.getNodes(leaves);
+  leaves.reserve(leaves_.size());
+  for (const auto& leaf : leaves_.all()) leaves.push_back(leaf.get());
+  std::ranges::sort(leaves, {}, [](const CellLeaf* leaf) -> const Cell& { return leaf->origin; });
   return leaves;
 }
 
 void CellGrid::coarsen() {
-  std::vector<CellLeaf*> stolen;
-  tree_.stealNodes(stolen);
-  std::vector<std::unique_ptr<CellLeaf>> fine(stolen.begin(), stolen.end());
-  tree_.clear();
+  std::vector<std::unique_ptr<CellLeaf>> fine = leaves_.take();
   const std::map<Cell, std::uint64_t> fine_overflow = std::exchange(overflow_, {});
-  cache_.clear();
-  leaves_ = 0;
   for (std::size_t i = 0; i < fine.size(); ++i) {
     if (i + kLeavesAhead < fine.size()) prefetch_counts(*fine[i + kLeavesAhead]);
     add_coarsened(*fine[i]);
     fine[i].reset();  // Its memory serves the next coarse one.
   }
-  for (const auto& [cell, count] : fine_overflow) add({cell[0] >> 1, cell[1] >> 1, cell[2] >> 1}, count);
+  for (const auto& [cell, count] : fine_overflow) {
+    const CellRun run{{cell[0] >> 1, cell[1] >> 1, cell[2] >> 1}, count};
+    add(std::span(&run, 1));
+  }
 }
 
 /// A leaf becomes an eighth of a larger one, in which no other leaf has a part.
 void CellGrid::add_coarsened(const CellLeaf& fine) {
-  if (fine.getValueMask().isOff()) return;
-  const openvdb::Coord& origin = fine.origin();
-  const Cell corner{origin.x() >> 1, origin.y() >> 1, origin.z() >> 1};
-  const CellLeafCache::Entry& coarse = touch_leaf(corner);
-  const openvdb::Index first = offset_in_leaf(corner[0], corner[1], corner[2]);
-  const std::int32_t* const counts = fine.buffer().data();
-  for (auto on = fine.getValueMask().beginOn(); on; ++on) {
-    const auto at = static_cast<std::int32_t>(on.pos());
-    const openvdb::Index offset = first + offset_in_leaf(at >> 7, at >> 4 & 3, at >> 1 & 3);
-    std::int32_t& stored = coarse.counts[offset];
-    if (stored == 0) coarse.leaf->setActiveState(offset, true);
-    const std::uint64_t sum = static_cast<std::uint64_t>(stored) + static_cast<std::uint64_t>(counts[at]);
-    stored = static_cast<std::int32_t>(
-        sum < kCarry ? sum : carry({corner[0] + (at >> 7), corner[1] + (at >> 4 & 3), corner[2] + (at >> 1 & 3)}, sum));
-  }
+  CellLeaf* coarse = nullptr;
+  std::uint32_t first = 0;
+  fine.for_each_occupied([&](std::uint32_t at) {
+    if (!coarse) {
+      const Cell corner{fine.origin[0] >> 1, fine.origin[1] >> 1, fine.origin[2] >> 1};
+      coarse = &leaves_.touch(corner);
+      first = CellLeaf::offset_of(corner);
+    }
+    const std::uint32_t half = (at >> 7) << 6 | (at >> 4 & 3) << 3 | (at >> 1 & 3);
+    add(*coarse, first + half, static_cast<std::uint64_t>(fine.counts[at]));
+  });
 }
 
 }  // namespace arris::tiling

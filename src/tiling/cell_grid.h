@@ -1,35 +1,34 @@
 #pragma once
-/// @file Counts in the cells of one level. Private to CellCounts: includes OpenVDB.
+/// @file Counts in the cells of one level. Private to CellCounts.
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
-#include "tiling/cell_leaf_cache.h"
-#include "tiling/cell_tree.h"
+#include "tiling/cell.h"
+#include "tiling/cell_leaves.h"
 
 namespace arris::tiling {
+
+/// So many points of a cell, at least one.
+struct CellRun {
+  Cell cell{};
+  std::uint64_t points = 0;
+};
 
 /// Sparse counts of any size: what does not fit 32 bits is kept apart. Not thread-safe.
 class CellGrid {
  public:
-  CellGrid() = default;
-  CellGrid(const CellGrid& other) : tree_(other.tree_), leaves_(other.leaves_), overflow_(other.overflow_) {}
-  CellGrid& operator=(const CellGrid&) = delete;
+  static constexpr std::size_t kMostRuns = 64;
 
-  std::size_t leaves() const { return leaves_; }
-  std::size_t active_cells() const { return tree_.onVoxelCount(); }
+  std::size_t leaves() const { return leaves_.size(); }
+  std::size_t occupied_cells() const;
 
-  void add(const Cell& cell, std::uint64_t count) {
-    const CellLeafCache::Entry& leaf = touch_leaf(cell);
-    const openvdb::Index offset = offset_in_leaf(cell[0], cell[1], cell[2]);
-    std::int32_t& stored = leaf.counts[offset];
-    if (stored == 0) leaf.leaf->setActiveState(offset, true);  // Most are active already.
-    const std::uint64_t sum = static_cast<std::uint64_t>(stored) + count;
-    stored = static_cast<std::int32_t>(sum < kCarry ? sum : carry(cell, sum));
-  }
+  /// At most kMostRuns of them: memory for the last is fetched while the first are counted.
+  void add(std::span<const CellRun> runs);
 
   /// Calls emptied() if the cell's last point went. Returns how many of `count` points were there.
   template <typename Emptied>
@@ -40,18 +39,23 @@ class CellGrid {
   /// Every cell becomes an eighth of a larger one. The memory of leaves serves the next ones.
   void coarsen();
 
-  /// In an order that depends on the set of leaves only.
+  /// Ascending by position.
   std::vector<const CellLeaf*> list_leaves() const;
   /// Of a cell of a leaf.
-  std::uint64_t count_at(const CellLeaf& leaf, openvdb::Index offset) const {
-    return static_cast<std::uint64_t>(leaf.buffer().data()[offset]) + carried(leaf, offset);
+  std::uint64_t count_at(const CellLeaf& leaf, std::uint32_t offset) const {
+    return static_cast<std::uint64_t>(leaf.counts[offset]) + carried(leaf, offset);
   }
   /// Calls visit(offset, count) for the cells of a leaf that are not empty, ascending.
   template <typename Visit>
   void for_each_in(const CellLeaf& leaf, Visit&& visit) const {
-    const std::int32_t* const counts = leaf.buffer().data();
-    for (auto on = leaf.getValueMask().beginOn(); on; ++on)
-      visit(on.pos(), static_cast<std::uint64_t>(counts[on.pos()]) + carried(leaf, on.pos()));
+    leaf.for_each_occupied([&](std::uint32_t offset) { visit(offset, count_at(leaf, offset)); });
+  }
+  /// Calls visit(count) for all cells that are not empty, in any order.
+  template <typename Visit>
+  void for_each_count(Visit&& visit) const {
+    for (const auto& leaf : leaves_.all()) {
+      for_each_in(*leaf, [&](std::uint32_t, std::uint64_t count) { visit(count); });
+    }
   }
 
  private:
@@ -59,37 +63,28 @@ class CellGrid {
   // int32.
   static constexpr std::uint64_t kCarry = std::uint64_t{1} << 30;
 
-  const CellLeafCache::Entry* probe_leaf(const Cell& cell) {
-    const std::int32_t x = cell[0] >> kCellLeafLog2, y = cell[1] >> kCellLeafLog2, z = cell[2] >> kCellLeafLog2;
-    if (const CellLeafCache::Entry* const met = cache_.find(x, y, z)) return met;
-    CellLeaf* const leaf = tree_.probeLeaf(openvdb::Coord(cell[0], cell[1], cell[2]));
-    return leaf ? &cache_.put(x, y, z, *leaf) : nullptr;
-  }
-  const CellLeafCache::Entry& touch_leaf(const Cell& cell) {
-    const CellLeafCache::Entry* const leaf = probe_leaf(cell);
-    return leaf ? *leaf : add_leaf(cell);
-  }
-  const CellLeafCache::Entry& add_leaf(const Cell& cell);
-  std::uint64_t carry(const Cell& cell, std::uint64_t sum);
-  std::uint64_t carried(const Cell& cell) const;
-  std::uint64_t carried(const CellLeaf& leaf, openvdb::Index offset) const {
-    if (overflow_.empty()) return 0;
-    const openvdb::Coord at = leaf.offsetToGlobalCoord(offset);
-    return carried({at.x(), at.y(), at.z()});
+  void add(CellLeaf& leaf, std::uint32_t offset, std::uint64_t count) {
+    std::int32_t& stored = leaf.counts[offset];
+    if (stored == 0) leaf.occupy(offset);  // Most are already.
+    const std::uint64_t sum = static_cast<std::uint64_t>(stored) + count;
+    stored = static_cast<std::int32_t>(sum < kCarry ? sum : carry(leaf.cell_at(offset), sum));
   }
   void add_coarsened(const CellLeaf& fine);
+  std::uint64_t carry(const Cell& cell, std::uint64_t sum);
+  std::uint64_t carried(const Cell& cell) const;
+  std::uint64_t carried(const CellLeaf& leaf, std::uint32_t offset) const {
+    return overflow_.empty() ? 0 : carried(leaf.cell_at(offset));
+  }
 
-  CellTree tree_{0};
-  std::size_t leaves_ = 0;
-  std::map<Cell, std::uint64_t> overflow_;  // Multiples of kCarry that are not in the tree.
-  CellLeafCache cache_;
+  CellLeaves leaves_;
+  std::map<Cell, std::uint64_t> overflow_;  // Multiples of kCarry that are not in leaves.
 };
 
 template <typename Emptied>
 std::uint64_t CellGrid::take(const Cell& cell, std::uint64_t count, Emptied&& emptied) {
-  const CellLeafCache::Entry* const leaf = probe_leaf(cell);
-  const openvdb::Index offset = offset_in_leaf(cell[0], cell[1], cell[2]);
-  if (!leaf || !leaf->leaf->isValueOn(offset)) return 0;
+  CellLeaf* const leaf = leaves_.find(cell);
+  const std::uint32_t offset = CellLeaf::offset_of(cell);
+  if (!leaf || !leaf->is_occupied(offset)) return 0;
   std::int32_t& stored = leaf->counts[offset];
   std::uint64_t taken = 0;
   for (;;) {
@@ -98,7 +93,7 @@ std::uint64_t CellGrid::take(const Cell& cell, std::uint64_t count, Emptied&& em
     taken += now;
     if (stored > 0) return taken;
     if (carried(cell) == 0) {
-      leaf->leaf->setActiveState(offset, false);
+      leaf->vacate(offset);
       emptied();
       return taken;
     }

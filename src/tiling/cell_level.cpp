@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tiling/cell_tree.h"
+#include "tiling/cell.h"
 
 namespace arris::tiling {
 namespace {

@@ -22,6 +22,8 @@ struct SortedPoints {
   PointIds ids;
 };
 
+class StoredGrid;
+
 /// A grid "points" with the attributes "P" and "id" (int64), whose world space is lattice steps. It is written when
 /// asked, so that the caller may drop its points first. Storage voxels are 2^v steps: v is the smallest for which a
 /// leaf of 8^3 voxels holds kPointsPerLeaf points on average, 13 at most. Positions are 16-bit fixed point (an error
@@ -45,13 +47,25 @@ class PointGrid {
   SortedPoints take_points() &&;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<StoredGrid> stored_;
 };
 
 /// Reads what PointGrid::write wrote. Throws std::exception of some kind for anything else; the
 /// caller verifies a checksum first.
 /// @param wanted  leaves for whose box this is false are left out; null: all are read.
 SortedPoints read_point_grid(std::istream& stream, const std::function<bool(const LatticeBox&)>& wanted = {});
+
+/// Does what the first grid would have to wait for (a program may have to load OpenVDB), on a thread of its own if
+/// there may be any, and is through with it when it ends: a program must not end meanwhile. Need not be used.
+class PointGridPreparation {
+ public:
+  PointGridPreparation();
+  ~PointGridPreparation();
+  PointGridPreparation(const PointGridPreparation&) = delete;
+  PointGridPreparation& operator=(const PointGridPreparation&) = delete;
+};
+/// Memory that the process will take for that, on top of what is resident; 0 if it has it: waits if it has begun.
+/// Throws IoError if OpenVDB cannot be loaded.
+std::uint64_t point_grid_bytes_to_come();
 
 }  // namespace arris::tiling
