@@ -183,7 +183,8 @@ void ClusterTable::fix_seeds() {
   const auto& seeds = impl_->new_seeds;
   std::vector<std::uint32_t> order(seeds.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) { return seeds[a].cell < seeds[b].cell; });
+  const auto before = [&](std::uint32_t a, std::uint32_t b) { return seeds[a].cell < seeds[b].cell; };
+  if (!std::ranges::is_sorted(order, before)) std::ranges::sort(order, before);  // Those of a lone tile are.
   Clusters& c = impl_->clusters;
   c.seed_ranks.reserve(order.size());
   c.seed_positions.reserve(order.size());

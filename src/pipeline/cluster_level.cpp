@@ -1,6 +1,7 @@
 #include "pipeline/cluster_level.h"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <utility>
 
@@ -31,7 +32,7 @@ class Clustering {
     const std::uint32_t voxels = walk_.store().size();
     level_.clusters_of.assign(voxels, kNoCluster);
     if (voxels == 0) return std::move(level_);
-    lone_.assign(voxels, false);
+    lone_.assign((voxels + 63) / 64, 0);
     kept_bytes += sizeof(std::uint32_t) * std::uint64_t{voxels} + voxels / 8;
     const std::uint64_t likely = likely_clusters();
     const auto each = static_cast<std::uint64_t>(cluster_bytes(parameters_));
@@ -84,7 +85,7 @@ class Clustering {
   void set_lone_apart(const VoxelTile& tile, std::vector<Seed>& seeds) {
     std::erase_if(seeds, [&](const Seed& seed) {
       const bool lone = tile.neighbours_of(seed.voxel).empty();
-      if (lone) lone_[tile.ranks[seed.voxel]] = true;
+      if (lone) lone_[tile.ranks[seed.voxel] >> 6] |= std::uint64_t{1} << (tile.ranks[seed.voxel] & 63);
       return lone;
     });
   }
@@ -109,8 +110,9 @@ class Clustering {
   }
 
   void keep_orphans(const std::vector<OrphanVoxel>& orphans) {
-    std::ranges::copy_if(orphans, std::back_inserter(orphans_),
-                         [&](const OrphanVoxel& orphan) { return !lone_[orphan.rank]; });
+    std::ranges::copy_if(orphans, std::back_inserter(orphans_), [&](const OrphanVoxel& orphan) {
+      return (lone_[orphan.rank >> 6] >> (orphan.rank & 63) & 1) == 0;
+    });
   }
 
   void move_seeds() {
@@ -125,8 +127,10 @@ class Clustering {
   }
 
   void number_lone() {
-    for (std::size_t rank = 0; rank < lone_.size(); ++rank) {
-      if (lone_[rank]) level_.clusters_of[rank] = level_.count + level_.lone++;
+    for (std::size_t word = 0; word < lone_.size(); ++word) {
+      for (std::uint64_t bits = lone_[word]; bits != 0; bits &= bits - 1) {
+        level_.clusters_of[word * 64 + static_cast<std::size_t>(std::countr_zero(bits))] = level_.count + level_.lone++;
+      }
     }
     level_.count += level_.lone;
   }
@@ -152,7 +156,7 @@ class Clustering {
   const SupervoxelScale& scale_;
   ProgressSink& progress_;
   merge::ClusterTable table_;
-  std::vector<bool> lone_;  ///< By rank: a seed without neighbours.
+  std::vector<std::uint64_t> lone_;  ///< A bit by rank: a seed without neighbours.
   std::vector<OrphanVoxel> orphans_;
   ClusterLevel level_;
 };

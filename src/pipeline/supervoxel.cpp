@@ -39,8 +39,8 @@ SurveyedScan survey_scan(io::InputSet& inputs, const SupervoxelRequest& request,
   const double spacing = request.spacing > 0.0 ? request.spacing : scan.survey.spacing;
   scan.scale = resolve_scale(report.parameters, spacing, scan.survey.lattice);
   scan.colours = wanted_colours(inputs, report.parameters.colour, progress, cancel);
-  report.predicted_temp_bytes =
-      predicted_voxel_temp_bytes(scan.survey, scan.scale, scan.colours != nullptr, VoxelMemory(request.memory_bytes));
+  report.predicted_temp_bytes = predicted_voxel_temp_bytes(scan.survey, scan.scale, report.parameters,
+                                                           scan.colours != nullptr, VoxelMemory(request.memory_bytes));
   check_temp_space(report.predicted_temp_bytes, request, progress);
   return scan;
 }
@@ -61,10 +61,9 @@ SupervoxelReport plan_supervoxels(const SupervoxelRequest& request, ProgressSink
   const SurveyedScan scan = survey_scan(inputs, request, problems, report, sink, cancel);
   watch.lap("survey");
   report.voxels = static_cast<std::uint64_t>(estimate_voxels(scan.survey, scan.scale).voxels);
-  report.predicted_peak_bytes =
-      std::max(peak_resident_bytes(),
-               predicted_supervoxel_bytes(scan.survey, scan.scale, report.parameters, scan.colours != nullptr,
-                                          VoxelMemory(request.memory_bytes)));
+  report.predicted_peak_bytes = std::max(
+      peak_resident_bytes(), predicted_supervoxel_bytes(scan.survey, scan.scale, report.parameters,
+                                                        scan.colours != nullptr, VoxelMemory(request.memory_bytes)));
   report.peak_resident_bytes = peak_resident_bytes();
   return report;
 }

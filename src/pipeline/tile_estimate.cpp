@@ -112,13 +112,15 @@ double likely_peak_bytes(const TileJob& job, double tiles_bytes) {
   constexpr double kGatherBytes =
       87e6;  // Results of a few million points, records and buffers while outputs are written.
   constexpr double kGatherPoints = 3e6;
+  constexpr double kSurveyReused = 0.6;  // Of its counts, which are gone when a lone tile is analysed.
   constexpr double kOfPeakSoFar = 1.05;
   const double gather = kGatherBytes * std::min(1.0, static_cast<double>(job.survey.points()) / kGatherPoints);
   const auto held = static_cast<double>(job.memory_request.held_bytes);
   const double threads = likely_of(job).of_thread * kThreadBytes * (job.memory_request.threads - 1);
   const double stays = job.tiles.tiles.size() > 1
                            ? std::min(kProgramBytes + held, static_cast<double>(job.memory.resident_bytes))
-                           : static_cast<double>(resident_with_grids());
+                           : static_cast<double>(resident_with_grids()) -
+                                 kSurveyReused * static_cast<double>(job.survey.counts.memory_bytes());
   const double peak =
       stays + threads + static_cast<double>(job.memory_request.kept_bytes) + std::max(tiles_bytes, gather);
   return std::max(peak, kOfPeakSoFar * static_cast<double>(peak_resident_bytes()));

@@ -27,8 +27,6 @@ double run_entry_bytes(bool colours) {
 double table_entry_bytes(bool colours) {
   return run_entry_bytes(colours) + tiling::kOrderBytes;
 }
-/// Neighbours of a voxel of a surface.
-constexpr double kNeighbours = 12.0;
 constexpr double kNormalBytes = 12.0;
 /// Per supervoxel: plane, table, neighbours.
 constexpr double kSupervoxelBytes = 120.0;
@@ -90,6 +88,11 @@ double run_entries(const tiling::Survey& survey, const SupervoxelScale& scale, d
   return voxels + kScannedTwice * (of_both - voxels) * (1.0 - table_entries / voxels);
 }
 
+/// What all tiles have beside them.
+double kept_bytes(const VoxelEstimate& estimate, const SupervoxelParameters& parameters) {
+  return (sizeof(std::uint32_t) + 0.125) * estimate.voxels + cluster_bytes(parameters) * estimate.clusters;
+}
+
 double bytes_per_voxel(const VoxelEstimate& estimate, const SupervoxelParameters& parameters, bool colours) {
   return supervoxel_bytes_per_voxel(parameters.features, colours,
                                     likely_neighbours(estimate.voxels / std::max(1.0, estimate.blocks)));
@@ -148,7 +151,7 @@ SupervoxelBytes likely_supervoxel_bytes(const tiling::Survey& survey, const Supe
   const auto index_bytes = static_cast<std::uint64_t>(estimate.index_bytes);
   const auto room = static_cast<double>(memory.stage_bytes(resident_bytes + index_bytes));
   const double each = bytes_per_voxel(estimate, parameters, colours);
-  double kept = (sizeof(std::uint32_t) + 0.125) * estimate.voxels + cluster_bytes(parameters) * estimate.clusters;
+  double kept = kept_bytes(estimate, parameters);
   tiling::VoxelPlanRequest plan;
   plan.max_voxels = most_tile_voxels(room - kept, each);
   plan.halo_voxels = scale.halo_voxels();
@@ -165,7 +168,8 @@ SupervoxelBytes likely_supervoxel_bytes(const tiling::Survey& survey, const Supe
         cluster_bytes(parameters) * clusters + bytes_per_voxel(all, parameters, colours) * voxels + kLoneBytes * lone;
     peak = std::max(peak, std::min(room, kept + here));
   }
-  const double growing = estimate.index_bytes + std::max(static_cast<double>(kVoxelPassBytes), peak);
+  const double growing =
+      estimate.index_bytes + std::max(static_cast<double>(kVoxelPassBytes), VoxelMemory::kLikelyShare * peak);
   return {static_cast<std::uint64_t>(table + estimate.index_bytes), static_cast<std::uint64_t>(growing)};
 }
 
@@ -190,14 +194,17 @@ std::uint64_t predicted_store_bytes(const tiling::Survey& survey, const Supervox
   return static_cast<std::uint64_t>(kMargin * each * likely_voxels(survey, scale));
 }
 
-std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale, bool colours,
+std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+                                         const SupervoxelParameters& parameters, bool colours,
                                          const VoxelMemory& memory) {
-  const double voxels = likely_voxels(survey, scale);
-  const auto room = static_cast<double>(memory.table_bytes() + memory.index_bytes());
+  const VoxelEstimate estimate = estimate_voxels(survey, scale);
+  const double voxels = estimate.voxels;
   const double table_entries = static_cast<double>(memory.table_bytes()) / table_entry_bytes(colours);
   const double runs = voxels > table_entries ? run_entries(survey, scale, voxels, table_entries) : 0.0;
-  const bool tiles =
-      voxels * supervoxel_bytes_per_voxel(SupervoxelParameters::Features::kNormal, colours, kNeighbours) > room;
+  const auto room =
+      static_cast<double>(memory.stage_bytes(resident_bytes() + static_cast<std::uint64_t>(estimate.index_bytes)));
+  const bool tiles = voxels > static_cast<double>(most_tile_voxels(room - kept_bytes(estimate, parameters),
+                                                                   bytes_per_voxel(estimate, parameters, colours)));
   // Runs are gone when normals of tiles come.
   const double beside = std::max(runs * run_entry_bytes(colours), tiles ? kNormalBytes * voxels : 0.0);
   return predicted_store_bytes(survey, scale, colours) + static_cast<std::uint64_t>(beside);

@@ -47,8 +47,9 @@ std::uint64_t predicted_scene_bytes(const VoxelEstimate& estimate);
 /// The store of the voxels.
 std::uint64_t predicted_store_bytes(const tiling::Survey& survey, const SupervoxelScale& scale, bool colours);
 /// Runs, store and normals of the voxels, for inputs whose neighbours in space are neighbours in the
-/// file.
-std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale, bool colours,
+/// file. To be asked when the survey is made.
+std::uint64_t predicted_voxel_temp_bytes(const tiling::Survey& survey, const SupervoxelScale& scale,
+                                         const SupervoxelParameters& parameters, bool colours,
                                          const VoxelMemory& memory);
 
 }  // namespace arris::pipeline

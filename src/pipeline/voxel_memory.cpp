@@ -22,7 +22,7 @@ constexpr std::uint64_t kMostTableBytes = 96 * kMiB;
 /// maps more of the program's libraries at a fault.
 constexpr std::uint64_t kSpareBytes = 12 * kMiB;
 /// Pages that the steps of a tile leave unused at its peak. Measured.
-constexpr std::uint64_t kUnusedBytes = 3 * kMiB;
+constexpr std::uint64_t kUnusedBytes = 5 * kMiB;
 
 }  // namespace
 
@@ -52,8 +52,10 @@ std::uint64_t VoxelMemory::stage_bytes(std::uint64_t resident_bytes) const {
 }
 
 std::uint64_t VoxelMemory::predicted_peak_bytes(std::uint64_t stage_bytes) const {
-  return std::max(peak_before_stage_bytes_,
-                  before_stage_bytes_ + kUnusedBytes + std::max(kVoxelPassBytes, stage_bytes));
+  return std::max(
+      peak_before_stage_bytes_,
+      before_stage_bytes_ + kUnusedBytes +
+          std::max(kVoxelPassBytes, static_cast<std::uint64_t>(kLikelyShare * static_cast<double>(stage_bytes))));
 }
 
 std::uint64_t more_than_fits(std::uint64_t budget_bytes, std::uint64_t bytes) {

@@ -11,6 +11,9 @@ constexpr std::uint64_t kVoxelPassBytes = 16 * 1024 * 1024;
 /// The voxel table is freed before supervoxels grow, so each gets what the other leaves.
 class VoxelMemory {
  public:
+  /// Of what the clustering may take at its peak, so much is likely. Measured.
+  static constexpr double kLikelyShare = 0.93;
+
   /// Throws BudgetError if not even the least voxel table fits.
   explicit VoxelMemory(std::uint64_t budget_bytes);
   /// Of the table that sums points per voxel.

@@ -45,6 +45,9 @@ std::uint64_t CellCounts::total() const {
 std::size_t CellCounts::active_cells() const {
   return impl_->grid.occupied_cells();
 }
+std::size_t CellCounts::memory_bytes() const {
+  return impl_->grid.memory_bytes();
+}
 
 void CellCounts::add(std::span<const LatticePoint> points) {
   Impl& impl = *impl_;

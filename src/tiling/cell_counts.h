@@ -49,6 +49,7 @@ class CellCounts {
   int level() const;
   std::uint64_t total() const;
   std::size_t active_cells() const;
+  std::size_t memory_bytes() const;
   /// All non-empty cells by their points, ascending. O(cells).
   std::vector<CellClass> classes() const;
   /// Points in the cell that contains `position`.

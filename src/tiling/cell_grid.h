@@ -26,6 +26,7 @@ class CellGrid {
 
   std::size_t leaves() const { return leaves_.size(); }
   std::size_t occupied_cells() const;
+  std::size_t memory_bytes() const { return leaves_.memory_bytes(); }
 
   /// At most kMostRuns of them: memory for the last is fetched while the first are counted.
   void add(std::span<const CellRun> runs);

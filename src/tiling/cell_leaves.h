@@ -55,6 +55,7 @@ class CellLeaves {
   CellLeaves& operator=(CellLeaves&&) noexcept = default;
 
   std::size_t size() const { return leaves_.size(); }
+  std::size_t memory_bytes() const { return leaves_.size() * sizeof(CellLeaf) + slots_.size() * sizeof(Slot); }
   /// The leaf of a cell, null if there is none.
   CellLeaf* find(const Cell& cell) const { return slots_.empty() ? nullptr : slots_[slot_of(position_of(cell))].leaf; }
   /// The same; one of empty cells is made where there is none.

@@ -146,12 +146,12 @@ TEST_F(SupervoxelStage, Supervoxels_AreOfTheSizeAskedForAndLieOnOneFace) {
   }
   std::size_t minority = 0;
   for (const auto& [id, of] : faces) {
-    int most = 0, all = 0;
+    int most = 0, sum = 0;
     for (const auto& [face, count] : of) {
       most = std::max(most, count);
-      all += count;
+      sum += count;
     }
-    minority += static_cast<std::size_t>(all - most);
+    minority += static_cast<std::size_t>(sum - most);
   }
   EXPECT_LT(static_cast<double>(minority), 0.02 * static_cast<double>(clear)) << "undersegmentation";
   const std::int64_t widest = 2 * (scale_.levels + 3) * scale_.voxel_steps;

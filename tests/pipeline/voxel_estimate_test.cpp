@@ -60,7 +60,7 @@ TEST(VoxelEstimate, VoxelsOfOnePoint_AreInOneRunOnly) {
   const double voxels = estimate_voxels(survey, scale).voxels;
   const VoxelMemory memory((resident_bytes() + kGiB / 25) * 100 / 92);
   const auto store = static_cast<double>(predicted_store_bytes(survey, scale, false));
-  const double runs = static_cast<double>(predicted_voxel_temp_bytes(survey, scale, false, memory)) - store;
+  const double runs = static_cast<double>(predicted_voxel_temp_bytes(survey, scale, {}, false, memory)) - store;
   EXPECT_NEAR(runs / (28.0 * voxels), 1.0, 0.05);
 }
 
@@ -88,8 +88,8 @@ TEST(VoxelEstimate, Colours_TakeMoreMemoryAndDisk) {
   EXPECT_GT(more(with.growing, without.growing), 11.0 * voxels);
   EXPECT_GT(more(with.counting, without.counting), 11.0 * voxels);
   const VoxelMemory little((resident_bytes() + kGiB / 25) * 100 / 92);
-  EXPECT_GT(more(predicted_voxel_temp_bytes(survey, scale, true, little),
-                 predicted_voxel_temp_bytes(survey, scale, false, little)),
+  EXPECT_GT(more(predicted_voxel_temp_bytes(survey, scale, {}, true, little),
+                 predicted_voxel_temp_bytes(survey, scale, {}, false, little)),
             (6.0 + 11.0) * voxels)
       << "store and runs";
 }

@@ -191,12 +191,25 @@ PageVector<std::uint32_t> grow_clusters(const VoxelTile& tile, const VoxelFeatur
 std::vector<TileSeed> tile_seeds(const VoxelTile& tile, const Clusters& clusters,
                                  std::span<const std::uint32_t> by_rank) {
   std::vector<TileSeed> seeds;
+  const std::uint32_t* const ranks = tile.ranks.data();
   std::size_t voxel = 0;
+  std::uint32_t here = tile.size() == 0 ? 0 : ranks[0];  // ranks[voxel], without having to wait for it.
   for (const std::uint32_t cluster : by_rank) {
     const std::uint32_t rank = clusters.seed_ranks[cluster];
-    while (voxel < tile.size() && tile.ranks[voxel] < rank) ++voxel;
+    if (here < rank && voxel < tile.size()) {
+      // Ranks ascend: the one sought is no more voxels away than the ranks differ, and as many where none is missing in
+      // between, as in the only tile of a scan.
+      const std::size_t end = std::min<std::size_t>(tile.size(), voxel + (rank - here) + 1);
+      if (ranks[end - 1] == rank) {
+        voxel = end - 1;
+        here = rank;
+      } else {
+        voxel = static_cast<std::size_t>(std::lower_bound(ranks + voxel, ranks + end, rank) - ranks);
+        if (voxel < tile.size()) here = ranks[voxel];
+      }
+    }
     if (voxel == tile.size()) break;
-    if (tile.ranks[voxel] == rank) seeds.push_back({static_cast<std::uint32_t>(voxel), cluster});
+    if (here == rank) seeds.push_back({static_cast<std::uint32_t>(voxel), cluster});
   }
   return seeds;
 }

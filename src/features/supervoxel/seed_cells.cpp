@@ -160,18 +160,15 @@ std::vector<Seed> find_seeds(const VoxelTile& tile, const SupervoxelScale& scale
   });
   const double least_distance =
       kLeastSeedDistance * static_cast<double>(kVoxelFractions) * static_cast<double>(scale.seed_steps);
-  std::vector<Seed> seeds;
-  std::mutex mutex;
+  std::vector<std::vector<Seed>> found((cells.size() + kCellGrain - 1) / kCellGrain);
   parallel_for_chunks(cells.size(), kCellGrain, [&](std::size_t begin, std::size_t end) {
-    std::vector<Seed> found;
     for (const CellSeed& seed : std::span(cells).subspan(begin, end - begin)) {
       if (tile.core[seed.voxel] == 0 || !seed.supported) continue;
-      if (!crowded_out(tile, cells, seed, least_distance)) found.push_back({seed.cell, seed.voxel});
+      if (!crowded_out(tile, cells, seed, least_distance)) found[begin / kCellGrain].push_back({seed.cell, seed.voxel});
     }
-    const std::lock_guard lock(mutex);
-    seeds.insert(seeds.end(), found.begin(), found.end());
   });
-  std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) { return a.cell < b.cell; });
+  std::vector<Seed> seeds;
+  for (const std::vector<Seed>& some : found) seeds.insert(seeds.end(), some.begin(), some.end());
   return seeds;
 }
 
