@@ -47,9 +47,8 @@ JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, Progress
     if (zheng.spacing == 0.0) zheng.spacing = std::max(plan.survey.spacing, plan.survey.lattice.step);
     plan.scale = resolve_scale(plan.method.supervoxel, zheng.spacing, plan.survey.lattice);
     plan.colours = wanted_colours(inputs, plan.method.supervoxel.colour, progress, cancel);
-    plan.voxel_temp_bytes =
-        predicted_voxel_temp_bytes(plan.survey, plan.scale, plan.method.supervoxel, plan.colours != nullptr,
-                                   VoxelMemory(request.memory_bytes));
+    plan.voxel_temp_bytes = predicted_voxel_temp_bytes(plan.survey, plan.scale, plan.method.supervoxel,
+                                                       plan.colours != nullptr, VoxelMemory(request.memory_bytes));
   } else {
     if (plan.method.max_radius() == 0.0)
       plan.method.set_max_radius(resolve_max_radius(plan.survey, plan.method.spacing(), plan.method.fixed_radius()));

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/stages.h"
 #include "tiling/voxel_merge.h"
 #include "tiling/voxel_run.h"
 #include "tiling/voxel_store_filler.h"
@@ -20,7 +21,9 @@ namespace {
 // Large writes are cheaper, up to here.
 constexpr std::size_t kMostWriteBytes = 512 * 1024;
 // A batch of points, counters of the sort, voxels on their way to the store, and the rest.
-constexpr std::size_t kFixedBytes = 96 * 1024 + VoxelStoreFiller::kVoxelsOnTheirWay * sizeof(Voxel);
+constexpr std::size_t kFixedBytes = 96 * 1024 + VoxelStoreFiller::kMemoryBytes;
+// Records of a run on their way to it; as many as of a store have room.
+constexpr std::size_t kPartRecords = VoxelStoreFiller::kPart;
 // Runs merged at a time: few enough for the system's limit of open files.
 constexpr std::size_t kMostRuns = 128;
 constexpr std::size_t kLeastReadBytes = 64 * 1024;
@@ -66,11 +69,25 @@ struct VoxelAccumulator::Impl {
     runs.erase(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(count));
   }
 
+  /// The table's sums lie anywhere: they are collected in their order by all threads.
   void spill() {
     auto run = new_run(table->has_colours());
     {
       const VoxelTable::Sorted sums = table->sorted();
-      for (std::size_t i = 0; i < sums.size(); ++i) run->append(sums[i]);
+      ItemPlaces<std::vector<VoxelRecord>> parts;
+      ItemPlaces<std::size_t> begins{};
+      std::size_t next = 0;
+      const auto take = [&](std::size_t place) {
+        begins[place] = std::exchange(next, std::min(next + kPartRecords, sums.size()));
+        return begins[place] < sums.size();
+      };
+      const auto collect = [&](std::size_t place) {
+        parts[place].clear();
+        const std::size_t end = std::min(begins[place] + kPartRecords, sums.size());
+        for (std::size_t i = begins[place]; i < end; ++i) parts[place].push_back(sums[i]);
+      };
+      const auto append = [&](std::size_t place) { run->append(parts[place]); };
+      run_stages(parts.size(), take, {{StageOrder::kAnyOrder, collect}, {StageOrder::kInTurn, append}});
     }
     table->clear();
     keep(std::move(run));
@@ -105,7 +122,7 @@ struct VoxelAccumulator::Impl {
     const std::size_t fan_in = std::clamp<std::size_t>(free_bytes / kLeastReadBytes, 2, kMostRuns);
     while (runs.size() > fan_in) merge_first(std::min(fan_in, runs.size() - fan_in + 1));
     VoxelMerge merge(runs, read_bytes(runs.size()));
-    filler.add_all([&](VoxelRecord& record) { return merge.next(record); });
+    filler.add_all([&](std::vector<VoxelRecord>& records) { return merge.next(records, VoxelStoreFiller::kPart); });
   }
 
   VoxelGrid grid;

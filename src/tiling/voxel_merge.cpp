@@ -16,6 +16,14 @@ VoxelMerge::VoxelMerge(std::span<const std::unique_ptr<VoxelRun>> runs, std::siz
   find_second();
 }
 
+bool VoxelMerge::next(std::vector<VoxelRecord>& records, std::size_t least) {
+  records.clear();
+  while (!heap_.empty() && (records.size() < least || heap_.front().key == records.back().sums.key)) {
+    advance(records.emplace_back());
+  }
+  return !records.empty();
+}
+
 void VoxelMerge::advance(VoxelRecord& record) {
   Head& first = heap_.front();
   VoxelRecord& head = records_[first.run];

@@ -24,6 +24,8 @@ class VoxelMerge {
     advance(record);
     return true;
   }
+  /// The next records, all those of some voxels: `least` or more, unless there are no more. False: none were left.
+  bool next(std::vector<VoxelRecord>& records, std::size_t least);
 
  private:
   struct Head {

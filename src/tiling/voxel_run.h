@@ -31,6 +31,9 @@ class VoxelRun {
     if (has_colours()) std::memcpy(buffer_.data() + used_ + sizeof(record.sums), &record.colour, sizeof(record.colour));
     used_ += record_bytes_;
   }
+  void append(std::span<const VoxelRecord> records) {
+    for (const VoxelRecord& record : records) append(record);
+  }
   /// Ends writing; frees the buffer and the descriptor.
   void close();
 

@@ -33,23 +33,26 @@ void sum_part(const VoxelTable::Sorted& records, std::size_t begin, std::size_t 
 VoxelStoreFiller::VoxelStoreFiller(VoxelFile& file, VoxelIndex& index, std::uint64_t most_index_bytes)
     : file_(file), index_(index), most_index_bytes_(most_index_bytes) {}
 
-void VoxelStoreFiller::add_all(const std::function<bool(VoxelRecord& record)>& next) {
-  VoxelRecord record;
-  bool any = next(record);
-  ItemPlaces<std::vector<Voxel>> summed;
-  const auto sum = [&](std::size_t place) {
-    summed[place].clear();
-    while (any && summed[place].size() < kPart) {
-      VoxelTotal total(record.sums.key);
-      do {
-        total.add(record);
-        any = next(record);
-      } while (any && record.sums.key == total.key());
-      summed[place].push_back(total.mean());
-    }
-    return !summed[place].empty();
+void VoxelStoreFiller::add_all(const std::function<bool(std::vector<VoxelRecord>& records)>& fill) {
+  struct Part {
+    std::vector<VoxelRecord> records;
+    std::vector<Voxel> summed;
   };
-  run_stages(summed.size(), sum, {{StageOrder::kInTurn, [&](std::size_t place) { append(summed[place]); }}});
+  ItemPlaces<Part> parts;
+  const auto sum = [&](std::size_t place) {
+    Part& part = parts[place];
+    part.summed.clear();
+    for (std::size_t i = 0; i < part.records.size();) {
+      VoxelTotal total(part.records[i].sums.key);
+      do {
+        total.add(part.records[i]);
+      } while (++i < part.records.size() && part.records[i].sums.key == total.key());
+      part.summed.push_back(total.mean());
+    }
+  };
+  const auto append_part = [&](std::size_t place) { append(parts[place].summed); };
+  run_stages(parts.size(), [&](std::size_t place) { return fill(parts[place].records); },
+             {{StageOrder::kAnyOrder, sum}, {StageOrder::kInTurn, append_part}});
 }
 
 void VoxelStoreFiller::add_all(const VoxelTable::Sorted& records) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/stages.h"
+#include "core/voxel.h"
 #include "tiling/voxel_store_parts.h"
 #include "tiling/voxel_sums.h"
 #include "tiling/voxel_table.h"
@@ -20,14 +21,15 @@ namespace arris::tiling {
 class VoxelStoreFiller {
  public:
   static constexpr std::size_t kPart = 2048;
-  /// Memory is taken for so many.
-  static constexpr std::size_t kVoxelsOnTheirWay = kItemsAhead * kPart;
+  /// Of records and voxels on their way; little more where voxels have several records.
+  static constexpr std::size_t kMemoryBytes = kItemsAhead * kPart * (sizeof(VoxelRecord) + sizeof(Voxel));
 
   /// Both must outlive it.
   VoxelStoreFiller(VoxelFile& file, VoxelIndex& index, std::uint64_t most_index_bytes);
 
-  /// What next() gives until it returns false: the records of one voxel one after another, voxels in Z-order.
-  void add_all(const std::function<bool(VoxelRecord& record)>& next);
+  /// What fill() gives until it returns false: all records of some voxels each time, kPart or a few more, those of one
+  /// voxel one after another, voxels in Z-order. It is called by one thread at a time, on any.
+  void add_all(const std::function<bool(std::vector<VoxelRecord>& records)>& fill);
   /// All there are, summed by all threads.
   void add_all(const VoxelTable::Sorted& records);
 

@@ -52,9 +52,19 @@ RC_GTEST_PROP(VoxelMerge, AnyRuns_GiveAllRecordsInZOrder, ()) {
     }
     runs.back()->close();
   }
+  const auto least = *rc::gen::element<std::size_t>(0, 1, 2, 7, 1000).as("records at a time, 0: one by one");
   VoxelMerge merge(runs, buffer_bytes);
-  std::vector<VoxelRecord> merged;
-  for (VoxelRecord record; merge.next(record);) merged.push_back(record);
+  std::vector<VoxelRecord> merged, some;
+  if (least == 0) {
+    for (VoxelRecord record; merge.next(record);) merged.push_back(record);
+  }
+  while (least > 0 && merge.next(some, least)) {
+    const bool is_cut = !merged.empty() && merged.back().sums.key == some.front().sums.key;
+    RC_ASSERT(!is_cut);
+    merged.insert(merged.end(), some.begin(), some.end());
+    const bool is_full = some.size() >= least || merged.size() == expected.size();
+    RC_ASSERT(is_full);
+  }
   RC_ASSERT(std::ranges::is_sorted(merged, before));
   std::vector<Content> found;
   for (const VoxelRecord& record : merged) found.push_back(content(record));
