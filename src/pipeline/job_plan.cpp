@@ -20,6 +20,7 @@ constexpr double kFollowedBytesPerPoint = 6.5;
 constexpr double kZhengResultBytesPerPoint = 2.0;
 /// Of the bound of a tile, which allows for more contour points than most scans have.
 constexpr double kArrisLikelyShare = 0.895;
+constexpr double kLiuLikelyShare = 0.90;  // Two tiles side by side: from 190 to 240 MB of the same scan.
 
 }  // namespace
 
@@ -37,6 +38,8 @@ JobPlan survey_job(io::InputSet& inputs, const ExtractRequest& request, Progress
   plan.memory_request.method.per_thread = contour_bytes_per_thread(request.method);
   if (request.method.method == ContourParameters::Method::kArris)
     plan.memory_request.method.likely_share = kArrisLikelyShare;
+  if (request.method.method == ContourParameters::Method::kLiu)
+    plan.memory_request.method.likely_share = kLiuLikelyShare;
   plan.memory = plan_memory(plan.memory_request);
   const tiling::PointGridPreparation preparation;
   plan.survey = tiling::survey_inputs(inputs, {request.lattice_step}, progress, cancel);
