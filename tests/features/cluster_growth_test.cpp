@@ -5,6 +5,9 @@
 
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "core/parallel.h"
 #include "features/supervoxel/cluster_distance.h"
@@ -180,6 +183,30 @@ RC_GTEST_PROP(ClusterDistance, AnyVoxelAndCluster_IsTheFormula, ()) {
     }
     RC_ASSERT(std::abs(found - expected) <= 1e-4 + 1e-4 * expected);
   }
+}
+
+RC_GTEST_PROP(TileSeeds, AnyRanks_AreThoseOfTheClustersThatLieInTheTile, ()) {
+  const auto most = *rc::gen::inRange<std::uint32_t>(1, 200).as("voxels of the scan");
+  const auto in_tile = *rc::gen::container<std::set<std::uint32_t>>(rc::gen::inRange<std::uint32_t>(0, most));
+  const auto seeds = *rc::gen::container<std::set<std::uint32_t>>(rc::gen::inRange<std::uint32_t>(0, most));
+  VoxelTile tile{VoxelGrid(1)};
+  tile.keys.resize(in_tile.size());
+  tile.ranks.assign(in_tile.begin(), in_tile.end());
+  Clusters clusters;
+  clusters.seed_ranks.assign(seeds.rbegin(), seeds.rend());  // By rank they come the other way round.
+  clusters.seed_positions.resize(seeds.size());
+  clusters.centres.resize(seeds.size());
+  std::vector<std::uint32_t> by_rank(seeds.size());
+  for (std::uint32_t i = 0; i < by_rank.size(); ++i) by_rank[i] = clusters.size() - 1 - i;
+
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> expected, found;
+  for (const std::uint32_t cluster : by_rank) {
+    const auto at = in_tile.find(clusters.seed_ranks[cluster]);
+    if (at != in_tile.end())
+      expected.emplace_back(static_cast<std::uint32_t>(std::distance(in_tile.begin(), at)), cluster);
+  }
+  for (const TileSeed& seed : tile_seeds(tile, clusters, by_rank)) found.emplace_back(seed.voxel, seed.cluster);
+  RC_ASSERT(found == expected);
 }
 
 }  // namespace
