@@ -21,10 +21,9 @@ struct CellLeaf {
   std::array<std::uint64_t, kCells / 64> occupied{};  ///< A bit per cell.
   Cell origin{};                                      ///< Its least cell.
 
-  static std::uint32_t offset_of(std::int32_t x, std::int32_t y, std::int32_t z) {
-    return static_cast<std::uint32_t>((x & 7) << 6 | (y & 7) << 3 | (z & 7));
+  static std::uint32_t offset_of(const Cell& cell) {
+    return static_cast<std::uint32_t>((cell[0] & 7) << 6 | (cell[1] & 7) << 3 | (cell[2] & 7));
   }
-  static std::uint32_t offset_of(const Cell& cell) { return offset_of(cell[0], cell[1], cell[2]); }
   Cell cell_at(std::uint32_t offset) const {
     return {origin[0] + static_cast<std::int32_t>(offset >> 6), origin[1] + static_cast<std::int32_t>(offset >> 3 & 7),
             origin[2] + static_cast<std::int32_t>(offset & 7)};

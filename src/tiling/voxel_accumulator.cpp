@@ -23,7 +23,7 @@ constexpr std::size_t kMostWriteBytes = 512 * 1024;
 // A batch of points, counters of the sort, voxels on their way to the store, and the rest.
 constexpr std::size_t kFixedBytes = 96 * 1024 + VoxelStoreFiller::kMemoryBytes;
 // Records of a run on their way to it; as many as of a store have room.
-constexpr std::size_t kPartRecords = VoxelStoreFiller::kPart;
+constexpr std::size_t kPartRecords = VoxelStoreFiller::kRecords;
 // Runs merged at a time: few enough for the system's limit of open files.
 constexpr std::size_t kMostRuns = 128;
 constexpr std::size_t kLeastReadBytes = 64 * 1024;
@@ -122,7 +122,7 @@ struct VoxelAccumulator::Impl {
     const std::size_t fan_in = std::clamp<std::size_t>(free_bytes / kLeastReadBytes, 2, kMostRuns);
     while (runs.size() > fan_in) merge_first(std::min(fan_in, runs.size() - fan_in + 1));
     VoxelMerge merge(runs, read_bytes(runs.size()));
-    filler.add_all([&](std::vector<VoxelRecord>& records) { return merge.next(records, VoxelStoreFiller::kPart); });
+    filler.add_all([&](std::vector<VoxelRecord>& records) { return merge.next(records, VoxelStoreFiller::kRecords); });
   }
 
   VoxelGrid grid;

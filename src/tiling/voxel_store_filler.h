@@ -1,7 +1,7 @@
 #pragma once
 /// @file Sums of voxels become the voxels of a store.
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -20,15 +20,19 @@ namespace arris::tiling {
 /// large. Not thread-safe.
 class VoxelStoreFiller {
  public:
+  /// Records of a table at a time.
   static constexpr std::size_t kPart = 2048;
+  /// Others, which have to be copied.
+  static constexpr std::size_t kRecords = 1024;
   /// Of records and voxels on their way; little more where voxels have several records.
-  static constexpr std::size_t kMemoryBytes = kItemsAhead * kPart * (sizeof(VoxelRecord) + sizeof(Voxel));
+  static constexpr std::size_t kMemoryBytes =
+      kItemsAhead * std::max(kPart * sizeof(Voxel), kRecords*(sizeof(VoxelRecord) + sizeof(Voxel)));
 
   /// Both must outlive it.
   VoxelStoreFiller(VoxelFile& file, VoxelIndex& index, std::uint64_t most_index_bytes);
 
-  /// What fill() gives until it returns false: all records of some voxels each time, kPart or a few more, those of one
-  /// voxel one after another, voxels in Z-order. It is called by one thread at a time, on any.
+  /// What fill() gives until it returns false: all records of some voxels each time, kRecords or a few more, those of
+  /// one voxel one after another, voxels in Z-order. It is called by one thread at a time, on any.
   void add_all(const std::function<bool(std::vector<VoxelRecord>& records)>& fill);
   /// All there are, summed by all threads.
   void add_all(const VoxelTable::Sorted& records);

@@ -292,7 +292,7 @@ TEST(VoxelTable, KnownVoxels_NeedNoRoom) {
 
 TEST(VoxelAccumulator, DiskFullAtAnyPoint_IsAnIoErrorWithTheReasonAndLeavesNoFiles) {
   const auto points = test::random_cloud(4, 60'000);
-  for (const rlim_t size_bytes : {rlim_t{0}, rlim_t{4096}, rlim_t{100'000}, rlim_t{200'000}}) {
+  for (const rlim_t size_bytes : {rlim_t{0}, rlim_t{4096}, rlim_t{100'000}, rlim_t{300'000}}) {
     const test::TempFolder folder;
     auto* const old_action = std::signal(SIGXFSZ, SIG_IGN);
     rlimit old_limit{};
