@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/at_work.h"
 #include "core/chunk_parts.h"
 
 namespace arris {
@@ -44,6 +45,7 @@ class SharedLoop {
  private:
   void run(std::size_t begin) {
     if (failed_) return;
+    const AtWork at_work;
     try {
       body_(begin, std::min(count_, begin + grain_));
     } catch (...) {

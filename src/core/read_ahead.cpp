@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <mutex>
 
+#include "core/at_work.h"
 #include "core/parallel.h"
 
 namespace arris {
@@ -59,7 +60,11 @@ class Turns {
 
 void fill_all(Turns& turns, std::size_t places, const std::function<bool(std::size_t place)>& fill) {
   try {
-    for (std::uint64_t i = 0; turns.may_fill() && fill(i % places); ++i) turns.filled();
+    for (std::uint64_t i = 0; turns.may_fill(); ++i) {
+      const AtWork at_work;
+      if (!fill(i % places)) break;
+      turns.filled();
+    }
   } catch (...) {
     turns.ended();
     throw;
@@ -80,6 +85,7 @@ void fill_in_turn(std::size_t places, const std::function<bool(std::size_t place
   filling.run([&] { fill_all(turns, places, fill); });
   try {
     for (std::uint64_t i = 0; turns.may_use(); ++i) {
+      const AtWork at_work;
       use(i % places);
       turns.used();
     }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "core/at_work.h"
 #include "core/parallel.h"
 
 namespace arris {
@@ -82,6 +83,7 @@ class StageRun {
 
   /// True unless there was nothing to fill a place with, or an error.
   bool take(const Step& step) {
+    const AtWork at_work;
     const auto place = static_cast<std::size_t>(step.item % places_.size());
     try {
       if (step.fill) return fill_(place);

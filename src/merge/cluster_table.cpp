@@ -6,54 +6,13 @@
 #include <numeric>
 
 #include "core/parallel.h"
+#include "merge/cluster_sums.h"
 
 namespace arris::merge {
 namespace {
 
 constexpr std::size_t kGrain = 16 * 1024;
-/// Normals and colours are summed in whole multiples of 1 / this.
-constexpr float kNormalUnits = 32767.0F;
-constexpr float kColourUnits = 256.0F;
 constexpr std::size_t kLocks = 256;
-/// Members within 30 degrees of the mean normal lie on the surface of most; where two surfaces are mixed in equal parts
-/// none do.
-constexpr float kFacingCosine = 0.8660254F;
-
-struct SurfaceSums {
-  std::int64_t voxels = 0;
-  std::array<std::int64_t, 3> position{};  ///< From the seed's position.
-  std::array<std::int64_t, 3> normal{};    ///< Signs as the centre's.
-
-  void add(const SurfaceSums& other) {
-    voxels += other.voxels;
-    for (std::size_t i = 0; i < 3; ++i) {
-      position[i] += other.position[i];
-      normal[i] += other.normal[i];
-    }
-  }
-};
-struct Sums {
-  SurfaceSums all;
-  SurfaceSums facing;  ///< Members that lie on the surface of most.
-  std::array<std::int64_t, 3> colour{};
-
-  void add(const Sums& other) {
-    all.add(other.all);
-    facing.add(other.facing);
-    for (std::size_t i = 0; i < 3; ++i) colour[i] += other.colour[i];
-  }
-};
-using HistogramSums = std::array<std::int64_t, kHistogramBins>;
-
-struct SeedOffer {
-  std::uint64_t distance2 = ~std::uint64_t{0};
-  std::uint32_t rank = 0xffffffffU;
-  VoxelPosition position{};
-
-  bool better_than(const SeedOffer& other) const {
-    return distance2 != other.distance2 ? distance2 < other.distance2 : rank < other.rank;
-  }
-};
 
 std::int64_t rounded_mean(std::int64_t sum, std::int64_t n) {  // Half up.
   const std::int64_t doubled = 2 * sum + n;
@@ -67,10 +26,6 @@ std::array<float, 3> direction(const std::array<std::int64_t, 3>& sum) {
   std::array<float, 3> unit{};
   for (std::size_t i = 0; i < 3; ++i) unit[i] = length > 0.0 ? static_cast<float>(n[i] / length) : 0.0F;
   return unit;
-}
-
-std::int64_t units(float value, float per_one) {
-  return std::lround(value * per_one);
 }
 
 }  // namespace
@@ -101,32 +56,19 @@ struct ClusterTable::Impl {
               [&](std::uint32_t a, std::uint32_t b) { return clusters.seed_ranks[a] < clusters.seed_ranks[b]; });
   }
 
-  /// Neighbours in Z-order mostly share a cluster: a run of them takes its lock once.
-  void add_run(const VoxelTile& tile, const VoxelFeatures& features, std::uint32_t cluster,
-               std::span<const std::uint32_t> voxels) {
-    Sums run;
-    HistogramSums bins{};
+  void add_member(const VoxelTile& tile, const VoxelFeatures& features, std::size_t v, std::uint32_t cluster,
+                  Sums& to) const {
+    const std::array<float, 3>& n = features.normals[v];
     const ClusterCentre& centre = clusters.centres[cluster];
-    for (const std::uint32_t v : voxels) {
-      const std::array<float, 3>& n = features.normals[v];
-      const float cosine = n[0] * centre.normal[0] + n[1] * centre.normal[1] + n[2] * centre.normal[2];
-      SurfaceSums member{1, {}, {}};
-      for (std::size_t i = 0; i < 3; ++i) {
-        member.position[i] = difference(tile.positions[v][i], clusters.seed_positions[cluster][i]);
-        member.normal[i] = units(cosine < 0.0F ? -n[i] : n[i], kNormalUnits);
-        if (!features.colours.empty()) run.colour[i] += units(features.colours[v][i], kColourUnits);
-      }
-      run.all.add(member);
-      if (std::abs(cosine) >= kFacingCosine) run.facing.add(member);
-      if (histograms) {
-        for (std::size_t i = 0; i < bins.size(); ++i) bins[i] += features.histograms[v][i];
-      }
+    const float cosine = n[0] * centre.normal[0] + n[1] * centre.normal[1] + n[2] * centre.normal[2];
+    SurfaceSums member{1, {}, {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      member.position[i] = difference(tile.positions[v][i], clusters.seed_positions[cluster][i]);
+      member.normal[i] = units(cosine < 0.0F ? -n[i] : n[i], kNormalUnits);
+      if (!features.colours.empty()) to.colour[i] += units(features.colours[v][i], kColourUnits);
     }
-    const std::lock_guard guard(lock_of(cluster));
-    sums[cluster].add(run);
-    if (histograms) {
-      for (std::size_t i = 0; i < bins.size(); ++i) histogram_sums[cluster][i] += bins[i];
-    }
+    to.all.add(member);
+    if (std::abs(cosine) >= kFacingCosine) to.facing.add(member);
   }
 
   VoxelPosition mean_position(std::uint32_t cluster, const SurfaceSums& s) const {
@@ -212,20 +154,28 @@ std::span<const std::uint32_t> ClusterTable::by_seed_rank() const {
 
 void ClusterTable::add_members(const VoxelTile& tile, const VoxelFeatures& features,
                                std::span<const std::uint32_t> clusters_of) {
+  const bool histograms = impl_->histograms;
   parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> run;
-    std::uint32_t cluster = kNoCluster;
-    const auto flush = [&] {
-      if (!run.empty()) impl_->add_run(tile, features, cluster, run);
-      run.clear();
+    ClusterSlots<Sums> sums;
+    const auto put_out = [&](std::uint32_t cluster, const Sums& members) {
+      const std::lock_guard guard(impl_->lock_of(cluster));
+      impl_->sums[cluster].add(members);
+    };
+    ClusterSlots<HistogramSums> bins;
+    const auto put_bins_out = [&](std::uint32_t cluster, const HistogramSums& members) {
+      const std::lock_guard guard(impl_->lock_of(cluster));
+      for (std::size_t i = 0; i < members.size(); ++i) impl_->histogram_sums[cluster][i] += members[i];
     };
     for (std::size_t v = begin; v < end; ++v) {
-      if (tile.core[v] == 0 || clusters_of[v] == kNoCluster) continue;
-      if (clusters_of[v] != cluster) flush();
-      cluster = clusters_of[v];
-      run.push_back(static_cast<std::uint32_t>(v));
+      const std::uint32_t cluster = clusters_of[v];
+      if (tile.core[v] == 0 || cluster == kNoCluster) continue;
+      impl_->add_member(tile, features, v, cluster, sums.at(cluster, put_out));
+      if (!histograms) continue;
+      HistogramSums& to = bins.at(cluster, put_bins_out);
+      for (std::size_t i = 0; i < to.size(); ++i) to[i] += features.histograms[v][i];
     }
-    flush();
+    sums.put_all_out(put_out);
+    bins.put_all_out(put_bins_out);
   });
 }
 
@@ -245,26 +195,23 @@ void ClusterTable::update_centres() {
 
 void ClusterTable::offer_seeds(const VoxelTile& tile, std::span<const std::uint32_t> clusters_of) {
   parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    SeedOffer best;
-    std::uint32_t cluster = kNoCluster;
-    const auto flush = [&] {
-      if (cluster == kNoCluster) return;
+    ClusterSlots<SeedOffer> offers;
+    const auto put_out = [&](std::uint32_t cluster, const SeedOffer& best) {
       const std::lock_guard guard(impl_->lock_of(cluster));
       if (best.better_than(impl_->offers[cluster])) impl_->offers[cluster] = best;
-      best = {};
     };
     for (std::size_t v = begin; v < end; ++v) {
-      if (tile.core[v] == 0 || clusters_of[v] == kNoCluster) continue;
-      if (clusters_of[v] != cluster) flush();
-      cluster = clusters_of[v];
+      const std::uint32_t cluster = clusters_of[v];
+      if (tile.core[v] == 0 || cluster == kNoCluster) continue;
       SeedOffer offer{0, tile.ranks[v], tile.positions[v]};
       for (std::size_t i = 0; i < 3; ++i) {
         const std::int64_t d = difference(tile.positions[v][i], impl_->clusters.centres[cluster].position[i]);
         offer.distance2 += static_cast<std::uint64_t>(d * d);
       }
+      SeedOffer& best = offers.at(cluster, put_out);
       if (offer.better_than(best)) best = offer;
     }
-    flush();
+    offers.put_all_out(put_out);
   });
 }
 

@@ -29,6 +29,11 @@ inline Cell cell_of(const LatticePoint& p, int level) {
   return {p.x >> level, p.y >> level, p.z >> level};
 }
 
+/// The cell of a level coarser by `levels` that it lies in.
+inline Cell cell_coarsened(const Cell& cell, int levels) {
+  return {cell[0] >> levels, cell[1] >> levels, cell[2] >> levels};
+}
+
 inline bool same_cell(const LatticePoint& a, const LatticePoint& b, int level) {
   return static_cast<std::uint32_t>((a.x ^ b.x) | (a.y ^ b.y) | (a.z ^ b.z)) >> level == 0;
 }

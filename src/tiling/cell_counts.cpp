@@ -66,6 +66,26 @@ void CellCounts::add(std::span<const LatticePoint> points) {
   impl.total += points.size();
 }
 
+void CellCounts::add(const CellRuns& runs) {
+  Impl& impl = *impl_;
+  while (impl.level < runs.level()) impl.coarsen();
+  std::array<CellRun, CellGrid::kMostRuns> coarser;
+  for (std::span<const CellRun> left = runs.runs(); !left.empty();) {
+    const std::span<const CellRun> now = left.first(std::min(left.size(), coarser.size()));
+    left = left.subspan(now.size());
+    if (const int levels = impl.level - runs.level(); levels == 0) {
+      impl.grid.add(now);
+    } else {
+      std::ranges::transform(now, coarser.begin(), [&](const CellRun& run) {
+        return CellRun{cell_coarsened(run.cell, levels), run.points};
+      });
+      impl.grid.add(std::span(coarser).first(now.size()));
+    }
+    impl.coarsen_to_fit();
+  }
+  impl.total += runs.points();
+}
+
 void CellCounts::add(const LatticePoint& point, std::uint64_t count) {
   if (count == 0) return;
   const CellRun run{cell_of(point, impl_->level), count};
@@ -114,9 +134,12 @@ std::uint64_t CellCounts::count_at(const LatticePoint& position) const {
 }
 
 CellCounts CellCounts::coarsened(int level) const {
-  auto copy = std::make_unique<Impl>(*impl_);
-  while (copy->level < std::min(level, kMaxCellLevel)) copy->coarsen();
-  return CellCounts(std::move(copy));
+  if (std::min(level, kMaxCellLevel) <= impl_->level) return CellCounts(std::make_unique<Impl>(*impl_));
+  auto coarse = std::make_unique<Impl>(impl_->level + 1, impl_->max_leaves);
+  coarse->total = impl_->total;
+  coarse->grid = impl_->grid.coarsened();
+  while (coarse->level < std::min(level, kMaxCellLevel)) coarse->coarsen();
+  return CellCounts(std::move(coarse));
 }
 
 void CellCounts::for_each_by_leaf(const std::function<void(const LatticeBox& cell, std::uint64_t count)>& visit) const {

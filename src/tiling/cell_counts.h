@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/lattice.h"
+#include "tiling/cell_runs.h"
 
 namespace arris::tiling {
 
@@ -24,11 +25,11 @@ struct CellClass {
 /// Counts points in cells of 2^level lattice steps (cell c covers [c << level, (c + 1) << level) per axis). Starts fine
 /// and coarsens by a factor of two whenever more than max_leaves leaves (of 8x8x8 cells) are active. The final level
 /// and the counts depend on the set of points only, not on their order: it is the finest level, from first_level on, at
-/// which the whole set fits. Counts above 2^31 - 1 are kept exactly.
+/// which the whole set fits. Counts of any size are exact.
 ///
-/// Memory: at most 2.3 kB per leaf (19 MB for 8192 leaves wherever they lie), half as much again for a moment while
-/// coarsening. Speed: about 100 M points/s when neighbours in the input are neighbours in space, a hash or map look-up
-/// per point otherwise. Not thread-safe.
+/// Memory: at most 1.2 kB per leaf (10 MB for 8192 leaves wherever they lie), half as much again for a moment while
+/// coarsening; 50 bytes more for each cell of more than 32 thousand points. Speed: about 100 M points/s when neighbours
+/// in the input are neighbours in space, a hash or map look-up per point otherwise. Not thread-safe.
 class CellCounts {
  public:
   /// @param first_level  level to start from, 0..30.
@@ -39,6 +40,9 @@ class CellCounts {
   CellCounts& operator=(CellCounts&&) noexcept;
 
   void add(std::span<const LatticePoint> points);
+  /// The same with the points of `runs`, whose level must not be coarser than what all points will need: level() at any
+  /// time before, or that of level_that_fits() for some of the points.
+  void add(const CellRuns& runs);
   /// As `count` times add() of the same point, count >= 0.
   void add(const LatticePoint& point, std::uint64_t count);
   /// Takes points away again. Calls emptied(cell box) for every cell whose last point went, once per such event.

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kLeavesAhead = 2;
 
 void prefetch_counts(const CellLeaf& leaf) {
-  constexpr std::uint32_t kCountsOfALine = 64 / sizeof(std::int32_t);
+  constexpr std::uint32_t kCountsOfALine = 64 / sizeof(std::uint16_t);
   for (std::uint32_t offset = 0; offset < CellLeaf::kCells; offset += kCountsOfALine) prefetch(&leaf.counts[offset]);
 }
 
@@ -37,13 +37,13 @@ void CellGrid::add(std::span<const CellRun> runs) {
 }
 
 /// @return what stays in the leaf.
-std::uint64_t CellGrid::carry(const Cell& cell, std::uint64_t sum) {
-  overflow_[cell] += sum / kCarry * kCarry;
+std::uint64_t CellGrid::carry(CellLeaf& leaf, std::uint32_t offset, std::uint64_t sum) {
+  overflow_[leaf.cell_at(offset)] += sum / kCarry * kCarry;
+  leaf.carries = true;
   return sum % kCarry;
 }
 
 std::uint64_t CellGrid::carried(const Cell& cell) const {
-  if (overflow_.empty()) return 0;
   const auto found = overflow_.find(cell);
   return found == overflow_.end() ? 0 : found->second;
 }
@@ -69,8 +69,23 @@ void CellGrid::coarsen() {
     add_coarsened(*fine[i]);
     fine[i].reset();  // Its memory serves the next coarse one.
   }
-  for (const auto& [cell, count] : fine_overflow) {
-    const CellRun run{{cell[0] >> 1, cell[1] >> 1, cell[2] >> 1}, count};
+  add_overflow_coarsened(fine_overflow);
+}
+
+CellGrid CellGrid::coarsened() const {
+  CellGrid coarse;
+  const auto& fine = leaves_.all();
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    if (i + kLeavesAhead < fine.size()) prefetch_counts(*fine[i + kLeavesAhead]);
+    coarse.add_coarsened(*fine[i]);
+  }
+  coarse.add_overflow_coarsened(overflow_);
+  return coarse;
+}
+
+void CellGrid::add_overflow_coarsened(const std::map<Cell, std::uint64_t>& fine) {
+  for (const auto& [cell, count] : fine) {
+    const CellRun run{cell_coarsened(cell, 1), count};
     add(std::span(&run, 1));
   }
 }
@@ -81,12 +96,12 @@ void CellGrid::add_coarsened(const CellLeaf& fine) {
   std::uint32_t first = 0;
   fine.for_each_occupied([&](std::uint32_t at) {
     if (!coarse) {
-      const Cell corner{fine.origin[0] >> 1, fine.origin[1] >> 1, fine.origin[2] >> 1};
+      const Cell corner = cell_coarsened(fine.origin, 1);
       coarse = &leaves_.touch(corner);
       first = CellLeaf::offset_of(corner);
     }
     const std::uint32_t half = (at >> 7) << 6 | (at >> 4 & 3) << 3 | (at >> 1 & 3);
-    add(*coarse, first + half, static_cast<std::uint64_t>(fine.counts[at]));
+    add(*coarse, first + half, fine.counts[at]);
   });
 }
 

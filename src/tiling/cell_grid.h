@@ -10,16 +10,11 @@
 
 #include "tiling/cell.h"
 #include "tiling/cell_leaves.h"
+#include "tiling/cell_runs.h"
 
 namespace arris::tiling {
 
-/// So many points of a cell, at least one.
-struct CellRun {
-  Cell cell{};
-  std::uint64_t points = 0;
-};
-
-/// Sparse counts of any size: what does not fit 32 bits is kept apart. Not thread-safe.
+/// Sparse counts of any size: what does not fit a leaf is kept apart. Not thread-safe.
 class CellGrid {
  public:
   static constexpr std::size_t kMostRuns = 64;
@@ -39,12 +34,13 @@ class CellGrid {
 
   /// Every cell becomes an eighth of a larger one. The memory of leaves serves the next ones.
   void coarsen();
+  CellGrid coarsened() const;
 
   /// Ascending by position.
   std::vector<const CellLeaf*> list_leaves() const;
   /// Of a cell of a leaf.
   std::uint64_t count_at(const CellLeaf& leaf, std::uint32_t offset) const {
-    return static_cast<std::uint64_t>(leaf.counts[offset]) + carried(leaf, offset);
+    return std::uint64_t{leaf.counts[offset]} + carried(leaf, offset);
   }
   /// Calls visit(offset, count) for the cells of a leaf that are not empty, ascending.
   template <typename Visit>
@@ -60,21 +56,21 @@ class CellGrid {
   }
 
  private:
-  // Part of a cell's count that moves to the overflow map in one go; small enough that adding one can never overflow
-  // int32.
-  static constexpr std::uint64_t kCarry = std::uint64_t{1} << 30;
+  /// Counts in leaves are smaller: whole multiples move to the overflow map, which also lends one.
+  static constexpr std::uint64_t kCarry = std::uint64_t{1} << 15;
 
   void add(CellLeaf& leaf, std::uint32_t offset, std::uint64_t count) {
-    std::int32_t& stored = leaf.counts[offset];
+    std::uint16_t& stored = leaf.counts[offset];
     if (stored == 0) leaf.occupy(offset);  // Most are already.
-    const std::uint64_t sum = static_cast<std::uint64_t>(stored) + count;
-    stored = static_cast<std::int32_t>(sum < kCarry ? sum : carry(leaf.cell_at(offset), sum));
+    const std::uint64_t sum = stored + count;
+    stored = static_cast<std::uint16_t>(sum < kCarry ? sum : carry(leaf, offset, sum));
   }
   void add_coarsened(const CellLeaf& fine);
-  std::uint64_t carry(const Cell& cell, std::uint64_t sum);
+  void add_overflow_coarsened(const std::map<Cell, std::uint64_t>& fine);
+  std::uint64_t carry(CellLeaf& leaf, std::uint32_t offset, std::uint64_t sum);
   std::uint64_t carried(const Cell& cell) const;
   std::uint64_t carried(const CellLeaf& leaf, std::uint32_t offset) const {
-    return overflow_.empty() ? 0 : carried(leaf.cell_at(offset));
+    return leaf.carries ? carried(leaf.cell_at(offset)) : 0;
   }
 
   CellLeaves leaves_;
@@ -86,14 +82,14 @@ std::uint64_t CellGrid::take(const Cell& cell, std::uint64_t count, Emptied&& em
   CellLeaf* const leaf = leaves_.find(cell);
   const std::uint32_t offset = CellLeaf::offset_of(cell);
   if (!leaf || !leaf->is_occupied(offset)) return 0;
-  std::int32_t& stored = leaf->counts[offset];
+  std::uint16_t& stored = leaf->counts[offset];
   std::uint64_t taken = 0;
   for (;;) {
-    const std::uint64_t now = std::min<std::uint64_t>(count - taken, static_cast<std::uint64_t>(stored));
-    stored -= static_cast<std::int32_t>(now);
+    const std::uint64_t now = std::min<std::uint64_t>(count - taken, stored);
+    stored = static_cast<std::uint16_t>(stored - now);
     taken += now;
     if (stored > 0) return taken;
-    if (carried(cell) == 0) {
+    if (carried(*leaf, offset) == 0) {
       leaf->vacate(offset);
       emptied();
       return taken;
@@ -102,7 +98,7 @@ std::uint64_t CellGrid::take(const Cell& cell, std::uint64_t count, Emptied&& em
     const auto found = overflow_.find(cell);  // Borrow.
     found->second -= kCarry;
     if (found->second == 0) overflow_.erase(found);
-    stored = static_cast<std::int32_t>(kCarry);
+    stored = static_cast<std::uint16_t>(kCarry);
   }
 }
 

@@ -12,14 +12,15 @@
 
 namespace arris::tiling {
 
-/// Counts of 8 x 8 x 8 cells.
+/// Counts of 8 x 8 x 8 cells, as far as they fit.
 struct CellLeaf {
   static constexpr std::uint32_t kSide = 1U << kCellLeafLog2;
   static constexpr std::uint32_t kCells = kSide * kSide * kSide;
 
-  std::array<std::int32_t, kCells> counts{};
+  std::array<std::uint16_t, kCells> counts{};
   std::array<std::uint64_t, kCells / 64> occupied{};  ///< A bit per cell.
   Cell origin{};                                      ///< Its least cell.
+  bool carries = false;  ///< Counts of some of its cells are higher: CellGrid has the rest.
 
   static std::uint32_t offset_of(const Cell& cell) {
     return static_cast<std::uint32_t>((cell[0] & 7) << 6 | (cell[1] & 7) << 3 | (cell[2] & 7));
@@ -43,7 +44,7 @@ struct CellLeaf {
   }
 };
 
-/// A hash of their positions finds them; leaves stay where they are in memory. 2.2 kB and up to 100 bytes each. Not
+/// A hash of their positions finds them; leaves stay where they are in memory. 1.1 kB and up to 100 bytes each. Not
 /// thread-safe.
 class CellLeaves {
  public:

@@ -10,11 +10,21 @@ MappedReader::MappedReader(io::InputSet& inputs, const Lattice& lattice)
 }
 
 bool MappedReader::read(MappedPoints& points, std::size_t batch_points) {
+  if (!fetch(points, batch_points)) return false;
+  map(points);
+  return true;
+}
+
+bool MappedReader::fetch(MappedPoints& points, std::size_t batch_points) {
   io::ReadOptions options;
   options.batch_points = batch_points;
   if (!inputs_.read(points.batch, options)) return false;
-  mapper_.map(points.batch, inputs_.source_index(), points.positions, points.outcome);
+  points.source = inputs_.source_index();
   return true;
+}
+
+void MappedReader::map(MappedPoints& points) const {
+  mapper_.map(points.batch, points.source, points.positions, points.outcome);
 }
 
 void for_each_mapped_batch(io::InputSet& inputs, const Lattice& lattice, std::string_view phase, ProgressSink& progress,

@@ -17,6 +17,7 @@ namespace arris::tiling {
 /// A batch and where its points lie; of equal lengths.
 struct MappedPoints {
   io::PointBatch batch;
+  std::size_t source = 0;  ///< Of the inputs.
   std::vector<LatticePoint> positions;
   std::vector<Mapped> outcome;
 };
@@ -27,6 +28,9 @@ class MappedReader {
   MappedReader(io::InputSet& inputs, const Lattice& lattice);
   /// False at the end. Throws IoError, InputError.
   bool read(MappedPoints& points, std::size_t batch_points = io::ReadOptions().batch_points);
+  /// The two halves of it: the batch, and where its points lie, which any thread may find while the next is fetched.
+  bool fetch(MappedPoints& points, std::size_t batch_points = io::ReadOptions().batch_points);
+  void map(MappedPoints& points) const;
 
  private:
   io::InputSet& inputs_;

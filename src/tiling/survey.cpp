@@ -1,9 +1,10 @@
 #include "tiling/survey.h"
 
 #include <algorithm>
+#include <atomic>
 #include <vector>
 
-#include "core/read_ahead.h"
+#include "core/stages.h"
 #include "tiling/cell_level.h"
 #include "tiling/lattice_choice.h"
 #include "tiling/mapped_pass.h"
@@ -15,10 +16,12 @@ namespace {
 /// Points here and there, by which counting knows how coarse it will be.
 constexpr std::uint64_t kSampleBatches = 64;
 constexpr std::size_t kSampleBatchPoints = 1024;
+constexpr int kUnknownLevel = -1;
 
 struct SurveyBatch {
   MappedPoints points;
   SurveyTotals totals;
+  CellRuns runs;
 };
 
 /// The finest level that may do for all points. 0 where they cannot be had here and there.
@@ -66,14 +69,10 @@ SurveyTotals totals_of(std::span<const LatticePoint> positions, std::span<const 
   return totals;
 }
 
-void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome, const SurveyTotals& totals) {
-  SurveyTotals::add(totals);
+void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome) {
+  SurveyTotals::add(totals_of(positions, outcome));
   for_each_mapped_run(outcome,
                       [&](std::size_t begin, std::size_t end) { counts.add(positions.subspan(begin, end - begin)); });
-}
-
-void Survey::add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome) {
-  add(positions, outcome, totals_of(positions, outcome));
 }
 
 void Survey::finish() {
@@ -98,20 +97,37 @@ Survey survey_inputs(io::InputSet& inputs, const SurveyOptions& options, Progres
 
   Survey survey;
   const bool is_large = inputs.points() > 4 * kSampleBatches * kSampleBatchPoints;
-  if (is_large) survey.counts = CellCounts(least_level(inputs, choice.lattice()));
+  std::atomic<int> level = is_large ? least_level(inputs, choice.lattice()) : kUnknownLevel;
+  survey.counts = CellCounts(std::max(level.load(), 0));
   progress.phase("survey", inputs.points());
   MappedReader reader(inputs, choice.lattice());
-  read_ahead<SurveyBatch>(
-      [&](SurveyBatch& batch) {
-        if (!reader.read(batch.points)) return false;
-        batch.totals = totals_of(batch.points.positions, batch.points.outcome);
-        return true;
-      },
-      [&](const SurveyBatch& batch) {
-        cancel.check();
-        survey.add(batch.points.positions, batch.points.outcome, batch.totals);
-        progress.advance(batch.points.batch.count);
+  ItemPlaces<SurveyBatch> batches;
+  // Counting goes on with one batch at a time, and is all that it does: cells are found before, at the level of then.
+  const auto look_at = [&](SurveyBatch& batch) {
+    reader.map(batch.points);
+    const std::span<const LatticePoint> positions = batch.points.positions;
+    batch.totals = totals_of(positions, batch.points.outcome);
+    int at = level;
+    if (at == kUnknownLevel) {
+      for_each_mapped_run(batch.points.outcome, [&](std::size_t begin, std::size_t end) {
+        at = level_that_fits(positions.subspan(begin, end - begin), std::max(at, 0), kMostCellLeaves);
       });
+    }
+    batch.runs.clear(std::max(at, 0));
+    for_each_mapped_run(batch.points.outcome, [&](std::size_t begin, std::size_t end) {
+      batch.runs.add(positions.subspan(begin, end - begin));
+    });
+  };
+  const auto count = [&](const SurveyBatch& batch) {
+    cancel.check();
+    static_cast<SurveyTotals&>(survey).add(batch.totals);
+    survey.counts.add(batch.runs);
+    level = survey.counts.level();
+    progress.advance(batch.points.batch.count);
+  };
+  run_stages(batches.size(), [&](std::size_t place) { return reader.fetch(batches[place].points); },
+             {{StageOrder::kAnyOrder, [&](std::size_t place) { look_at(batches[place]); }},
+              {StageOrder::kInTurn, [&](std::size_t place) { count(batches[place]); }}});
   survey.lattice = choice.lattice();
   survey.finish();
   return survey;

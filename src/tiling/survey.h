@@ -46,9 +46,7 @@ struct Survey : SurveyTotals {
   CellCounts counts;               ///< Points per absolute cell of 2^k lattice steps.
   std::vector<CellClass> classes;  ///< Of counts.
 
-  /// Counts a batch of mapped points (equal lengths), of which `totals` are known.
-  void add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome, const SurveyTotals& totals);
-  /// The same, where they are not.
+  /// Counts a batch of mapped points (equal lengths).
   void add(std::span<const LatticePoint> positions, std::span<const Mapped> outcome);
   /// Completes the survey after the last batch: sets spacing and classes.
   void finish();

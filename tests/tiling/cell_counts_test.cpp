@@ -153,6 +153,56 @@ RC_GTEST_PROP(CellCounts, Remove_EmptiesEachCellOnceAtItsLastPoint, ()) {
   RC_ASSERT(counts.active_cells() == 0U);
 }
 
+/// What several threads found, at levels of several times, some of them finer than what is counted at by then.
+RC_GTEST_PROP(CellCounts, RunsOfAnyLevelNotTooCoarse_CountAsTheirPoints, ()) {
+  const auto points = test::any_cloud(1, 600);
+  const auto max_leaves = *rc::gen::inRange<std::size_t>(1, 100).as("max leaves");
+  CellCounts expected(0, max_leaves), counts(0, max_leaves);
+  expected.add(points);
+  CellRuns runs;
+  for (std::size_t begin = 0; begin < points.size();) {
+    const std::size_t count = *rc::gen::inRange<std::size_t>(1, points.size() - begin + 1);
+    runs.clear(*rc::gen::inRange(0, expected.level() + 1));
+    runs.add(std::span(points).subspan(begin, count));
+    counts.add(runs);
+    begin += count;
+  }
+  RC_ASSERT(counts.level() == expected.level());
+  RC_ASSERT(counts.total() == points.size());
+  RC_ASSERT(listed(counts) == listed(expected));
+}
+
+/// Leaves hold small counts only: the rest is kept elsewhere, and moves along.
+RC_GTEST_PROP(CellCounts, CountsOfAnySize_AddCoarsenAndRemoveExactly, ()) {
+  const auto cells = *rc::gen::inRange<std::int32_t>(1, 20);
+  const auto many = rc::gen::oneOf(rc::gen::inRange<std::uint64_t>(1, 5), rc::gen::inRange<std::uint64_t>(32760, 32776),
+                                   rc::gen::inRange<std::uint64_t>(65530, 131080));
+  CellCounts counts(0);
+  Cells expected;
+  for (std::int32_t i = 0; i < cells; ++i) {
+    const LatticePoint p{i % 3, i % 5, 0};
+    const std::uint64_t count = *many;
+    counts.add(p, count);
+    expected[cell_of(p, 0)] += count;
+  }
+  RC_ASSERT(listed(counts) == expected);
+  RC_ASSERT(classes_of(counts) == classes_of(expected));
+  Cells coarse;
+  for (const auto& [cell, count] : expected) coarse[{cell[0] >> 1, cell[1] >> 1, 0}] += count;
+  RC_ASSERT(listed(counts.coarsened(1)) == coarse);
+  for (auto& [cell, count] : expected) {
+    const LatticePoint p{static_cast<std::int32_t>(cell[0]), static_cast<std::int32_t>(cell[1]), 0};
+    const std::vector<LatticePoint> gone(*rc::gen::inRange<std::uint64_t>(1, count + 3), p);
+    const std::uint64_t taken = std::min<std::uint64_t>(gone.size(), count);
+    std::size_t emptied = 0;
+    RC_ASSERT(counts.remove(gone, [&](const LatticeBox&) { ++emptied; }) == gone.size() - taken);
+    RC_ASSERT(emptied == (taken == count ? 1U : 0U));
+    count -= taken;
+  }
+  std::erase_if(expected, [](const auto& cell) { return cell.second == 0; });
+  RC_ASSERT(listed(counts) == expected);
+}
+
 TEST(CellCounts, RemoveOfUncountedPoints_ReportsThemAndChangesNothing) {
   CellCounts counts(3);
   const std::vector<LatticePoint> points{{0, 0, 0}, {100, 0, 0}};
