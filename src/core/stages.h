@@ -6,8 +6,6 @@
 #include <functional>
 #include <vector>
 
-#include "core/read_ahead.h"
-
 namespace arris {
 
 enum class StageOrder {
@@ -21,17 +19,19 @@ struct Stage {
   std::function<void(std::size_t place)> work;
 };
 
-/// Fills places below `places` (>= 1) in turn, one at a time, until fill() returns false, and does the work of all
-/// stages to each; a place is filled again when the last stage is through with it. As many threads as loops may use,
-/// the caller's among them, take turns at what can be done next, so that unequal stages keep all of them busy: nobody
-/// waits while there is anything to do, and who waits does not spin. Work may use loops, and must not wait for other
-/// work. What fill() throws is thrown on after what was filled before is through, what work throws as soon as the work
-/// of others has ended.
+/// Fills places below `places` (>= 1), one at a time, until fill() returns false, and does the work of all stages to
+/// each item; a place is filled again when the last stage is through with its item, the one that was left last first.
+/// As many threads as loops may use, the caller's among them, take turns at what can be done next, so that unequal
+/// stages keep all of them busy: nobody waits while there is anything to do, and who waits does not spin. One item more
+/// than there are threads is on its way mostly; other places are for when a stage in turn takes long for once. Work may
+/// use loops, and must not wait for other work. What fill() throws is thrown on after what was filled before is
+/// through, what work throws as soon as the work of others has ended.
 void run_stages(std::size_t places, const std::function<bool(std::size_t place)>& fill,
                 const std::vector<Stage>& stages);
 
-/// As many places for items, each kept by one item at a time.
+/// Places for items, each kept by one item at a time.
+constexpr std::size_t kItemPlaces = 6;
 template <class Item>
-using ItemPlaces = std::array<Item, kItemsAhead>;
+using ItemPlaces = std::array<Item, kItemPlaces>;
 
 }  // namespace arris

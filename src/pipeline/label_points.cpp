@@ -26,7 +26,7 @@ void label(const LabelPass& pass, LabelledBatch& points) {
   pass.mapper.map(points.batch, points.source, points.positions, points.outcome);
   const std::size_t count = points.batch.count;
   points.ids.resize(count);
-  const bool enough_batches = static_cast<std::size_t>(loop_threads()) <= kItemsAhead;
+  const bool enough_batches = static_cast<std::size_t>(loop_threads()) <= kItemPlaces;
   parallel_for_chunks(count, enough_batches ? count : kGrain, [&](std::size_t begin, std::size_t end) {
     VoxelLabels own = pass.labels;  // Remembers where it was: one per chunk.
     own.find(std::span<const LatticePoint>(points.positions).subspan(begin, end - begin),

@@ -50,9 +50,10 @@ void VoxelStoreFiller::add_all(const std::function<bool(std::vector<VoxelRecord>
       part.summed.push_back(total.mean());
     }
   };
-  const auto append_part = [&](std::size_t place) { append(parts[place].summed); };
   run_stages(parts.size(), [&](std::size_t place) { return fill(parts[place].records); },
-             {{StageOrder::kAnyOrder, sum}, {StageOrder::kInTurn, append_part}});
+             {{StageOrder::kAnyOrder, sum},
+              {StageOrder::kInTurn, [&](std::size_t place) { file_.append(parts[place].summed); }},
+              {StageOrder::kInTurn, [&](std::size_t place) { add_to_index(parts[place].summed); }}});
 }
 
 void VoxelStoreFiller::add_all(const VoxelTable::Sorted& records) {
@@ -73,12 +74,13 @@ void VoxelStoreFiller::add_all(const VoxelTable::Sorted& records) {
     part.summed.clear();
     sum_part(records, part.begin, std::min(part.begin + kPart, records.size()), part.summed);
   };
-  const auto append_part = [&](std::size_t place) { append(parts[place].summed); };
-  run_stages(parts.size(), take, {{StageOrder::kAnyOrder, sum}, {StageOrder::kInTurn, append_part}});
+  run_stages(parts.size(), take,
+             {{StageOrder::kAnyOrder, sum},
+              {StageOrder::kInTurn, [&](std::size_t place) { file_.append(parts[place].summed); }},
+              {StageOrder::kInTurn, [&](std::size_t place) { add_to_index(parts[place].summed); }}});
 }
 
-void VoxelStoreFiller::append(const std::vector<Voxel>& voxels) {
-  file_.append(voxels);
+void VoxelStoreFiller::add_to_index(const std::vector<Voxel>& voxels) {
   for (const Voxel& voxel : voxels) {
     if (index_.size() == VoxelIndex::kNone - 1)
       throw BudgetError(fmt::format("more than {} voxels; choose a larger --voxel", index_.size()));

@@ -26,7 +26,7 @@ class VoxelStoreFiller {
   static constexpr std::size_t kRecords = 1024;
   /// Of records and voxels on their way; little more where voxels have several records.
   static constexpr std::size_t kMemoryBytes =
-      kItemsAhead * std::max(kPart * sizeof(Voxel), kRecords*(sizeof(VoxelRecord) + sizeof(Voxel)));
+      kItemPlaces * std::max(kPart * sizeof(Voxel), kRecords*(sizeof(VoxelRecord) + sizeof(Voxel)));
 
   /// Both must outlive it.
   VoxelStoreFiller(VoxelFile& file, VoxelIndex& index, std::uint64_t most_index_bytes);
@@ -38,7 +38,7 @@ class VoxelStoreFiller {
   void add_all(const VoxelTable::Sorted& records);
 
  private:
-  void append(const std::vector<Voxel>& voxels);
+  void add_to_index(const std::vector<Voxel>& voxels);
 
   VoxelFile& file_;
   VoxelIndex& index_;

@@ -3,9 +3,15 @@
 #include "core/stages.h"
 
 namespace arris::tiling {
+namespace {
+
+/// Than the table has lanes.
+constexpr std::size_t kMoreBatches = 4;
+
+}  // namespace
 
 VoxelStream::VoxelStream(VoxelTable& table, const std::function<bool(VoxelPoints&)>& fill)
-    : table_(table), fill_(fill), batches_(table.lanes() + 2) {
+    : table_(table), fill_(fill), batches_(table.lanes() + kMoreBatches) {
   for (Batch& batch : batches_) table.deal({}, batch.dealt);
 }
 

@@ -18,7 +18,7 @@ struct VoxelPoints {
 };
 
 /// Points are dealt out to the lanes, and each lane goes through the batches at its own speed, while others are filled.
-/// Either all batches have colours or none, and the table knows them before (VoxelTable::start_colours). Memory: two
+/// Either all batches have colours or none, and the table knows them before (VoxelTable::start_colours). Memory: four
 /// batches more than the table has lanes, and 4 bytes per point of them. Both arguments must outlive it; fill() is
 /// called by one thread at a time, on any.
 class VoxelStream {
