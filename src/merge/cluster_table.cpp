@@ -50,10 +50,11 @@ struct ClusterTable::Impl {
   std::mutex& lock_of(std::uint32_t cluster) { return locks[cluster % kLocks]; }
 
   void order_by_rank() {
-    by_rank.resize(clusters.size());
-    std::iota(by_rank.begin(), by_rank.end(), 0U);
-    std::sort(by_rank.begin(), by_rank.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return clusters.seed_ranks[a] < clusters.seed_ranks[b]; });
+    std::vector<std::uint64_t> ranks(clusters.size());  // And their clusters, below.
+    for (std::uint32_t c = 0; c < ranks.size(); ++c) ranks[c] = std::uint64_t{clusters.seed_ranks[c]} << 32 | c;
+    std::ranges::sort(ranks);
+    by_rank.resize(ranks.size());
+    std::ranges::transform(ranks, by_rank.begin(), [](std::uint64_t rank) { return static_cast<std::uint32_t>(rank); });
   }
 
   void add_member(const VoxelTile& tile, const VoxelFeatures& features, std::size_t v, std::uint32_t cluster,
@@ -108,6 +109,8 @@ ClusterTable::ClusterTable(const SupervoxelParameters& parameters) : impl_(std::
 ClusterTable::~ClusterTable() = default;
 
 void ClusterTable::add_seeds(const VoxelTile& tile, const VoxelFeatures& features, std::span<const Seed> seeds) {
+  const std::size_t size = impl_->new_seeds.size() + seeds.size();
+  if (size > impl_->new_seeds.capacity()) impl_->new_seeds.reserve(std::max(size, 2 * impl_->new_seeds.capacity()));
   for (const Seed& seed : seeds) {
     Impl::NewSeed s{seed.cell, tile.ranks[seed.voxel], {tile.positions[seed.voxel], features.normals[seed.voxel], {}}};
     if (!features.colours.empty()) s.centre.colour = features.colours[seed.voxel];

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 
+#include "core/pages.h"
 #include "core/parallel.h"
 #include "features/supervoxel/clusters.h"
 #include "pipeline/cluster_level.h"
@@ -14,6 +15,7 @@ namespace arris::pipeline {
 namespace {
 
 constexpr std::size_t kGrainBlocks = 2048;
+constexpr std::size_t kGrainVoxels = 64 * 1024;
 
 /// Takes turns with coarser voxels until every voxel of `walk` has a cluster.
 ClusterLevel cluster_all(VoxelTileWalk& walk, const SupervoxelStageRequest& request, std::uint64_t kept_bytes,
@@ -41,6 +43,33 @@ ClusterLevel cluster_all(VoxelTileWalk& walk, const SupervoxelStageRequest& requ
   return level;
 }
 
+/// Ids of clusters from 1 on; 0 where there are no voxels. @param count  set to how many have any.
+PageVector<std::uint32_t> ids_by_first_rank(const ClusterLevel& level, std::uint32_t& count) {
+  PageVector<std::uint32_t> first(level.count, kNoCluster);
+  parallel_for_chunks(level.clusters_of.size(), kGrainVoxels, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t last = kNoCluster;
+    for (auto rank = static_cast<std::uint32_t>(begin); rank < end; ++rank) {
+      const std::uint32_t cluster = level.clusters_of[rank];
+      if (cluster == last) continue;  // Ranks ascend.
+      last = cluster;
+      const std::atomic_ref<std::uint32_t> known(first[cluster]);
+      std::uint32_t before = known.load(std::memory_order_relaxed);
+      while (rank < before && !known.compare_exchange_weak(before, rank, std::memory_order_relaxed)) {
+      }
+    }
+  });
+  PageVector<std::uint64_t> ranks;  // And their clusters, below.
+  ranks.reserve(first.size());
+  for (std::uint32_t cluster = 0; cluster < first.size(); ++cluster) {
+    if (first[cluster] != kNoCluster) ranks.push_back(std::uint64_t{first[cluster]} << 32 | cluster);
+  }
+  std::ranges::sort(ranks);
+  PageVector<std::uint32_t> ids = std::move(first);
+  std::ranges::fill(ids, 0U);
+  for (const std::uint64_t rank : ranks) ids[static_cast<std::uint32_t>(rank)] = ++count;
+  return ids;
+}
+
 class Stage {
  public:
   Stage(const tiling::VoxelStore& store, const SupervoxelStageRequest& request, ProgressSink& progress,
@@ -59,14 +88,12 @@ class Stage {
   }
 
  private:
-  /// Dense ids in the order of ranks, in place.
+  /// Dense ids in the order of the first ranks, in place.
   void number(ClusterLevel& level) {
-    std::vector<std::uint32_t> id_of(level.count, 0);
-    for (std::uint32_t& cluster : level.clusters_of) {
-      std::uint32_t& id = id_of[cluster];
-      if (id == 0) id = ++result_.count;
-      cluster = id;
-    }
+    const PageVector<std::uint32_t> id_of = ids_by_first_rank(level, result_.count);
+    parallel_for_chunks(level.clusters_of.size(), kGrainVoxels, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t rank = begin; rank < end; ++rank) level.clusters_of[rank] = id_of[level.clusters_of[rank]];
+    });
     result_.ids = std::move(level.clusters_of);
     result_.planes.resize(std::size_t{result_.count} + 1);
     for (std::size_t cluster = 0; cluster < level.planes.size(); ++cluster)

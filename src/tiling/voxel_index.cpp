@@ -68,7 +68,9 @@ void VoxelIndex::add_slots() {
   blocks_.shrink_to_fit();
   words_.shrink_to_fit();
   slots_ = HashSlots(blocks_.size() * kSlotsPerBlock, blocks_.size());
+  constexpr std::size_t kAhead = 16;
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    if (i + kAhead < blocks_.size()) slots_.prefetch(voxel_hash(blocks_[i + kAhead].key));
     const std::uint32_t hash = voxel_hash(blocks_[i].key);
     slots_.set(slots_.find(hash, [](std::uint32_t) { return false; }), hash, static_cast<std::uint32_t>(i));
   }

@@ -1,7 +1,6 @@
 #include "features/supervoxel/seed_cells.h"
 
 #include <algorithm>
-#include <mutex>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -95,9 +94,13 @@ struct CellSeed {
 /// By cells. A list and not a map: where points are far apart there are as many cells as voxels.
 using CellSeeds = PageVector<CellSeed>;
 
-/// The nearest of each cell, ties: the first voxel.
+/// By cells, in each the best first: the nearest, ties: the first voxel.
+std::tuple<const LatticePoint&, std::uint64_t, std::uint32_t> order_of(const CellSeed& s) {
+  return {s.cell, s.distance2, s.voxel};
+}
+
+/// Of a sorted list.
 void keep_best(CellSeeds& cells) {
-  std::ranges::sort(cells, {}, [](const CellSeed& s) { return std::tuple(s.cell, s.distance2, s.voxel); });
   const auto rest = std::ranges::unique(cells, {}, &CellSeed::cell);
   cells.erase(rest.begin(), rest.end());
 }
@@ -117,21 +120,33 @@ CellSeeds best_of_cells(const VoxelTile& tile, const SupervoxelScale& scale, std
       last.voxel = v;
     }
   }
+  std::ranges::sort(cells, {}, order_of);
   keep_best(cells);
   return cells;
 }
 
+/// Lists of parts of the tile, each with the next one, until there is one.
 CellSeeds best_of_cells(const VoxelTile& tile, const SupervoxelScale& scale) {
-  CellSeeds cells;
-  std::mutex mutex;
+  std::vector<CellSeeds> lists((tile.size() + kGrain - 1) / kGrain);
   parallel_for_chunks(tile.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    const CellSeeds some =
+    lists[begin / kGrain] =
         best_of_cells(tile, scale, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end));
-    const std::lock_guard lock(mutex);
-    cells.insert(cells.end(), some.begin(), some.end());
   });
-  keep_best(cells);
-  return cells;
+  while (lists.size() > 1) {
+    std::vector<CellSeeds> merged((lists.size() + 1) / 2);
+    parallel_for_chunks(merged.size(), 1, [&](std::size_t i, std::size_t) {
+      if (2 * i + 1 == lists.size()) {
+        merged[i] = std::move(lists[2 * i]);
+        return;
+      }
+      CellSeeds first = std::move(lists[2 * i]), second = std::move(lists[2 * i + 1]);
+      merged[i].resize(first.size() + second.size());
+      std::ranges::merge(first, second, merged[i].begin(), {}, order_of, order_of);
+      keep_best(merged[i]);
+    });
+    lists = std::move(merged);
+  }
+  return lists.empty() ? CellSeeds{} : std::move(lists.front());
 }
 
 /// True if a neighbouring cell has a seed so near that both stand on the same spot of a surface that runs along the
