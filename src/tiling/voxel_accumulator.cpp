@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -74,8 +75,8 @@ struct VoxelAccumulator::Impl {
     auto run = new_run(table->has_colours());
     {
       const VoxelTable::Sorted sums = table->sorted();
-      ItemPlaces<std::vector<VoxelRecord>> parts;
-      ItemPlaces<std::size_t> begins{};
+      std::array<std::vector<VoxelRecord>, VoxelStoreFiller::kPlaces> parts;
+      std::array<std::size_t, VoxelStoreFiller::kPlaces> begins{};
       std::size_t next = 0;
       const auto take = [&](std::size_t place) {
         begins[place] = std::exchange(next, std::min(next + kPartRecords, sums.size()));

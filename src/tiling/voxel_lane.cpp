@@ -46,6 +46,10 @@ void VoxelLane::start_colours(ColourSums* colours) {
   for (std::size_t i = 0; i < size_; ++i) colours_[blocks_.index(number_, i)] = {};
 }
 
+void VoxelLane::make_slots() {
+  if (slots_.size() == 0) rehash(first_slots_);
+}
+
 void VoxelLane::free_slots() {
   slots_ = {};
   slots_full_at_ = 0;
@@ -97,7 +101,7 @@ inline std::uint32_t VoxelLane::find_or_begin(const LatticePoint& key, std::uint
 /// @return how many of the batch are added.
 template <bool kColours>
 std::size_t VoxelLane::add_batch(const VoxelBatch& batch, std::size_t count) {
-  if (slots_.size() == 0) rehash(first_slots_);
+  make_slots();
   // Most misses of the cache are over before the points are added one by one.
   for (std::size_t i = 0; i < count; ++i) slots_.prefetch(batch.hash[i]);
   for (std::size_t i = 0; i < count; ++i) {

@@ -54,6 +54,8 @@ class VoxelLane {
   /// The same where all points are its own.
   std::size_t add_all(std::span<const LatticePoint> positions, std::span<const RawColour> colours);
   std::size_t size() const { return size_; }
+  /// Makes those that it begins with, by all threads; the first add() does so too.
+  void make_slots();
   void free_slots();
   /// To be called when the sums were taken.
   void clear() { size_ = 0; }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -38,7 +39,7 @@ void VoxelStoreFiller::add_all(const std::function<bool(std::vector<VoxelRecord>
     std::vector<VoxelRecord> records;
     std::vector<Voxel> summed;
   };
-  ItemPlaces<Part> parts;
+  std::array<Part, kPlaces> parts;
   const auto sum = [&](std::size_t place) {
     Part& part = parts[place];
     part.summed.clear();
@@ -61,7 +62,7 @@ void VoxelStoreFiller::add_all(const VoxelTable::Sorted& records) {
     std::size_t begin;
     std::vector<Voxel> summed;
   };
-  ItemPlaces<Part> parts;
+  std::array<Part, kPlaces> parts;
   std::size_t next = 0;
   const auto take = [&](std::size_t place) {
     if (next >= records.size()) return false;

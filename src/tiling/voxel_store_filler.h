@@ -21,12 +21,14 @@ namespace arris::tiling {
 class VoxelStoreFiller {
  public:
   /// Records of a table at a time.
-  static constexpr std::size_t kPart = 2048;
+  static constexpr std::size_t kPart = 1536;
   /// Others, which have to be copied.
-  static constexpr std::size_t kRecords = 1024;
+  static constexpr std::size_t kRecords = 768;
+  /// For those on their way.
+  static constexpr std::size_t kPlaces = 4;
   /// Of records and voxels on their way; little more where voxels have several records.
   static constexpr std::size_t kMemoryBytes =
-      kItemPlaces * std::max(kPart * sizeof(Voxel), kRecords*(sizeof(VoxelRecord) + sizeof(Voxel)));
+      kPlaces * std::max(kPart * sizeof(Voxel), kRecords*(sizeof(VoxelRecord) + sizeof(Voxel)));
 
   /// Both must outlive it.
   VoxelStoreFiller(VoxelFile& file, VoxelIndex& index, std::uint64_t most_index_bytes);

@@ -41,13 +41,15 @@ VoxelTable::VoxelTable(const VoxelGrid& grid, std::size_t size_bytes, std::size_
 }
 
 /// Lanes go in turn: where the system makes a page for one of them, which takes as long as thousands of points on some
-/// machines, others soon have to wait. All threads touch the pages of so many sums before, in any order.
+/// machines, others soon have to wait. All threads touch the pages of so many sums before, in any order, and make
+/// slots.
 void VoxelTable::touch(std::size_t sums) {
   if (lanes_.size() == 1) return;
   const std::span<VoxelSums> all = sums_.first(std::min(sums, room()));
   parallel_for_chunks(all.size(), kTouchedSums, [&](std::size_t begin, std::size_t end) {
     touch_pages(&all[begin], (end - begin) * sizeof(VoxelSums));
   });
+  for (VoxelLane& lane : lanes_) lane.make_slots();
 }
 
 /// Of each lane.

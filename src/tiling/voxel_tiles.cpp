@@ -18,7 +18,7 @@ constexpr int kBlockLevel = 3;  // Of VoxelIndex.
 constexpr std::uint64_t kCellsOfATile = 64;
 /// Read at a time, by each thread.
 constexpr std::uint32_t kPieceVoxels = 4 * VoxelFile::kChunkVoxels;
-constexpr std::size_t kGrainPieces = 8;
+constexpr std::size_t kGrainPieces = 2;
 
 /// Whole blocks, which hold the box.
 LatticeBox in_blocks(LatticeBox box) {

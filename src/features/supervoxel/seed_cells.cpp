@@ -13,7 +13,7 @@ namespace {
 
 /// Seeds of neighbouring cells are not nearer than this share of R_seed.
 constexpr double kLeastSeedDistance = 1.0 / 3.0;
-constexpr std::size_t kGrain = 64 * 1024;  // Voxels.
+constexpr std::size_t kGrain = 16 * 1024;  // Voxels.
 constexpr std::size_t kCellGrain = 512;
 
 std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
