@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 
+#include "core/at_work.h"
 #include "core/file_descriptor.h"
 #include "core/pages.h"
 #include "core/parallel.h"
@@ -115,6 +116,7 @@ TileStageResult run_tile_stage(io::InputSet& inputs, const TileJob& job, const T
 
   AnalysisTurns turns(job.analyses_at_once);
   const auto build = [&](std::size_t tile) {
+    const AtWork at_work;
     std::optional<OwnThreadLoops> alone;
     if (job.analyses_at_once < job.memory.tile_workers) alone.emplace();  // Analyses have the threads.
     TilePoints points = store.build(tile);
