@@ -11,7 +11,7 @@ from types import SimpleNamespace
 from . import report
 from .clouds import make_cloud
 from .jobs import jobs_for
-from .measure import Failure, run, wall_of_all
+from .measure import Failure, run, touch, wall_of_all
 
 GIB = 1 << 30
 
@@ -28,6 +28,8 @@ def parse(arguments):
     parser.add_argument("--threads", type=int, nargs="+", default=[1], help="of arris, each in every turn; of peers the first")
     parser.add_argument("--beside", action="store_true",
                         help="as many processes at once as the last of --threads, too, each with the first: what the machine gives")
+    parser.add_argument("--touch-mib", type=int, default=0,
+                        help="memory to write to before each run: where a host takes pages back, the first touch is dear")
     parser.add_argument("--only", default="", help="jobs whose task or name has this in it")
     return parser.parse_args(arguments)
 
@@ -39,6 +41,7 @@ def measure(job, places, settings):
     # Pages of an output would be given up while others are written.
     for old in glob.glob(os.path.join(places.work, "out*.las")) + glob.glob(os.path.join(places.work, "report*.json")):
         os.remove(old)
+    touch(settings.touch_mib << 20)
     record = run(job.command, places.temp, limit, job.environment)
     if not job.peer:
         with open(told) as file:
@@ -46,6 +49,7 @@ def measure(job, places, settings):
         record["predicted_peak_mib"] = said["memory"]["predicted_peak_bytes"] / 2**20
         record["predicted_temp_bytes"] = said["temp"]["predicted_bytes"]
     if job.copies:
+        touch(settings.touch_mib << 20)
         record["copies"], record["copies_wall_s"] = len(job.copies), wall_of_all(job.copies)
     return record
 
