@@ -22,7 +22,7 @@ constexpr std::uint64_t kMostTableBytes = 96 * kMiB;
 /// maps more of the program's libraries at a fault.
 constexpr std::uint64_t kSpareBytes = 12 * kMiB;
 /// Pages that the steps of a tile leave unused at its peak. Measured.
-constexpr std::uint64_t kUnusedBytes = 5 * kMiB;
+constexpr std::uint64_t kUnusedBytes = 13 * kMiB / 2;
 
 }  // namespace
 
