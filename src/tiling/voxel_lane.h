@@ -28,8 +28,8 @@ struct LaneBlocks {
 using LanePoints = std::vector<std::uint32_t>;
 
 /// Voxels are dealt out to lanes by their hashes, so that lanes run side by side and share nothing. Sums lie in the
-/// order of their first points; slots with open addressing lead to them. A sum that is full (most_points_summed) is left
-/// and another one begun for the same voxel, so 32 bits suffice. Not thread-safe.
+/// order of their first points; slots with open addressing lead to them. A sum that is full (most_points_summed) is
+/// left and another one begun for the same voxel, so 32 bits suffice. Not thread-safe.
 class VoxelLane {
  public:
   /// Lanes are powers of two up to this.
