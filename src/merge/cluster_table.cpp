@@ -109,8 +109,6 @@ ClusterTable::ClusterTable(const SupervoxelParameters& parameters) : impl_(std::
 ClusterTable::~ClusterTable() = default;
 
 void ClusterTable::add_seeds(const VoxelTile& tile, const VoxelFeatures& features, std::span<const Seed> seeds) {
-  const std::size_t size = impl_->new_seeds.size() + seeds.size();
-  if (size > impl_->new_seeds.capacity()) impl_->new_seeds.reserve(std::max(size, 2 * impl_->new_seeds.capacity()));
   for (const Seed& seed : seeds) {
     Impl::NewSeed s{seed.cell, tile.ranks[seed.voxel], {tile.positions[seed.voxel], features.normals[seed.voxel], {}}};
     if (!features.colours.empty()) s.centre.colour = features.colours[seed.voxel];

@@ -24,6 +24,21 @@ struct SurveyBatch {
   CellRuns runs;
 };
 
+/// @param level  of some time before; where it is not known, the least that these points will need.
+void find_cells(SurveyBatch& batch, int level) {
+  const std::span<const LatticePoint> positions = batch.points.positions;
+  const std::span<const Mapped> outcome = batch.points.outcome;
+  batch.totals = totals_of(positions, outcome);
+  if (level == kUnknownLevel) {
+    for_each_mapped_run(outcome, [&](std::size_t begin, std::size_t end) {
+      level = level_that_fits(positions.subspan(begin, end - begin), std::max(level, 0), kMostCellLeaves);
+    });
+  }
+  batch.runs.clear(std::max(level, 0));
+  for_each_mapped_run(
+      outcome, [&](std::size_t begin, std::size_t end) { batch.runs.add(positions.subspan(begin, end - begin)); });
+}
+
 /// The finest level that may do for all points. 0 where they cannot be had here and there.
 int least_level(io::InputSet& inputs, const Lattice& lattice) {
   std::vector<LatticePoint> sample;
@@ -105,22 +120,11 @@ Survey survey_inputs(io::InputSet& inputs, const SurveyOptions& options, Progres
   // Counting goes on with one batch at a time, and is all that it does: cells are found before, at the level of then.
   const auto look_at = [&](SurveyBatch& batch) {
     reader.map(batch.points);
-    const std::span<const LatticePoint> positions = batch.points.positions;
-    batch.totals = totals_of(positions, batch.points.outcome);
-    int at = level;
-    if (at == kUnknownLevel) {
-      for_each_mapped_run(batch.points.outcome, [&](std::size_t begin, std::size_t end) {
-        at = level_that_fits(positions.subspan(begin, end - begin), std::max(at, 0), kMostCellLeaves);
-      });
-    }
-    batch.runs.clear(std::max(at, 0));
-    for_each_mapped_run(batch.points.outcome, [&](std::size_t begin, std::size_t end) {
-      batch.runs.add(positions.subspan(begin, end - begin));
-    });
+    find_cells(batch, level);
   };
   const auto count = [&](const SurveyBatch& batch) {
     cancel.check();
-    static_cast<SurveyTotals&>(survey).add(batch.totals);
+    survey.SurveyTotals::add(batch.totals);
     survey.counts.add(batch.runs);
     level = survey.counts.level();
     progress.advance(batch.points.batch.count);
