@@ -6,6 +6,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "features/neighbourhood/product_sums.h"
 #include "features/numerics/exact_sums.h"
 #include "features/numerics/mean_covariance.h"
 
@@ -66,63 +67,6 @@ struct SumMembers {
   }
 };
 
-/// Adds up the products that are there already, relative to the origin; all else is relative to the centre.
-struct AddProducts {
-  template <int Bytes>
-  static ARRIS_ALWAYS_INLINE void run(const CandidateSet<float>& c, const BallQuery<float>& ball, BallMoments& out) {
-    using V = typename simd::Wide<Bytes>::Float;
-    using Integers = typename simd::Wide<Bytes>::Int;
-    using Words = typename simd::Wide<Bytes>::Word;  // What is not inside may overflow.
-    const CandidateProducts& p = c.products;
-    V n{}, x{}, y{}, z{};
-    Words xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
-    for (std::size_t i = 0; i < simd::padded(c.count); i += Bytes / sizeof(float)) {
-      const V dx = simd::load<V>(c.x.data() + i) - ball.x;
-      const V dy = simd::load<V>(c.y.data() + i) - ball.y;
-      const V dz = simd::load<V>(c.z.data() + i) - ball.z;
-      const auto inside = simd::exact_multiply_add(dz, dz, simd::exact_multiply_add(dy, dy, dx * dx)) <= ball.radius2;
-      n = inside ? n + 1.0F : n;
-      x = inside ? x + dx : x;
-      y = inside ? y + dy : y;
-      z = inside ? z + dz : z;
-      xx = inside ? xx + simd::load<Words>(p.xx.data() + i) : xx;
-      xy = inside ? xy + simd::load<Words>(p.xy.data() + i) : xy;
-      xz = inside ? xz + simd::load<Words>(p.xz.data() + i) : xz;
-      yy = inside ? yy + simd::load<Words>(p.yy.data() + i) : yy;
-      yz = inside ? yz + simd::load<Words>(p.yz.data() + i) : yz;
-      zz = inside ? zz + simd::load<Words>(p.zz.data() + i) : zz;
-    }
-    const auto sum_of = [](const Words& words) __attribute__((always_inline)) {
-      return simd::exact_doubles(std::bit_cast<Integers>(words));
-    };
-    const typename simd::Wide<Bytes>::Double sums[] = {simd::exact_doubles(n),
-                                                       simd::exact_doubles(x),
-                                                       simd::exact_doubles(y),
-                                                       simd::exact_doubles(z),
-                                                       sum_of(xx),
-                                                       sum_of(xy),
-                                                       sum_of(xz),
-                                                       sum_of(yy),
-                                                       sum_of(yz),
-                                                       sum_of(zz)};
-    out = std::bit_cast<BallMoments>(simd::exact_lane_sums(sums));
-  }
-};
-
-/// Makes the sums of products relative to the centre (x, y, z), too; exact while all is below 2^53.
-BallMoments about_centre(const BallMoments& m, double x, double y, double z) {
-  return {m.n,
-          m.x,
-          m.y,
-          m.z,
-          m.xx - 2.0 * x * m.x - m.n * x * x,
-          m.xy - x * m.y - y * m.x - m.n * x * y,
-          m.xz - x * m.z - z * m.x - m.n * x * z,
-          m.yy - 2.0 * y * m.y - m.n * y * y,
-          m.yz - y * m.z - z * m.y - m.n * y * z,
-          m.zz - 2.0 * z * m.z - m.n * z * z};
-}
-
 /// The least and the greatest coordinate along a direction.
 template <class V>
 struct Range {
@@ -170,8 +114,7 @@ template <class T>
 void sum(const CandidateSet<T>& c, const BallQuery<T>& b, BallMoments& out) {
   if constexpr (std::is_same_v<T, float>) {
     if (c.products.exact) {
-      simd::dispatch<AddProducts>(c, b, out);
-      out = about_centre(out, b.x, b.y, b.z);
+      out = add_products(c, b);
       return;
     }
   }

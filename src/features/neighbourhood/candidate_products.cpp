@@ -38,6 +38,7 @@ void CandidateProducts::make(const PageVector<float>& x, const PageVector<float>
   const std::size_t lanes = static_cast<std::size_t>(simd::widest_bytes()) / sizeof(std::int32_t);
   const auto per_lane = static_cast<double>(simd::padded(count) / lanes);
   exact = per_lane * farthest * farthest <= kMostSum;
+  whole = static_cast<double>(count) * farthest * farthest <= kMostSum;
   if (!exact) return;
   PageVector<std::int32_t>* const columns[] = {&xx, &xy, &xz, &yy, &yz, &zz};
   for (auto* column : columns) {

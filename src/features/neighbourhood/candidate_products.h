@@ -13,6 +13,7 @@ namespace arris {
 struct CandidateProducts {
   PageVector<std::int32_t> xx, xy, xz, yy, yz, zz;
   bool exact = false;  ///< They are there, and no sum over all candidates overflows a lane.
+  bool whole = false;  ///< Nor does the sum of all lanes.
 
   /// Of `count` candidates, none of whose coordinates is more than `farthest` from 0. Arrays are padded as in
   /// CandidateSet, with anything. Leaves them out, with `exact` false, where a sum might overflow.

@@ -3,89 +3,15 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "features/neighbourhood/tree_items.h"
 
 namespace arris {
 namespace {
 
 constexpr std::size_t kBucketPoints = 32;
 
-struct Item {
-  std::int32_t at[3];
-  std::uint32_t entry;
-};
-
-ClosedBox box_of(std::span<const Item> items) {
-  ClosedBox box;
-  for (int axis = 0; axis < 3; ++axis) box.min[axis] = box.max[axis] = items[0].at[axis];
-  for (const Item& item : items) {
-    for (int axis = 0; axis < 3; ++axis) {
-      box.min[axis] = std::min(box.min[axis], item.at[axis]);
-      box.max[axis] = std::max(box.max[axis], item.at[axis]);
-    }
-  }
-  return box;
-}
-
-/// Puts the items in front whose coordinate `before` holds for, without branches; returns how many.
-template <class Before>
-std::size_t part(std::span<Item> items, int axis, Before before) {
-  std::size_t n = 0;
-  std::size_t gap = 0;  // Its item is kept aside.
-  const Item first = items[0];
-  const std::size_t first_before = before(first.at[axis]);
-  for (std::size_t i = 1; i < items.size(); ++i) {
-    items[gap] = items[n];
-    items[n] = items[i];
-    gap = i;
-    n += before(items[i].at[axis]);
-  }
-  items[gap] = items[n];
-  items[n] = first;
-  return n + first_before;
-}
-
-/// A coordinate that about `nth` of the items are below: a little more or fewer, so that what is left after parting by
-/// it is most often the smaller part.
-std::int32_t pivot_for(std::span<const Item> items, std::size_t nth, int axis) {
-  constexpr std::size_t kMostSamples = 31;
-  constexpr std::size_t kItemsPerSample = 16;
-  std::int32_t samples[kMostSamples];
-  const std::size_t count = std::clamp<std::size_t>(items.size() / kItemsPerSample, 5, kMostSamples);
-  for (std::size_t i = 0; i < count; ++i) samples[i] = items[items.size() * (2 * i + 1) / (2 * count)].at[axis];
-  const std::size_t margin = (count + 1) / 16;
-  std::size_t rank = nth * count / items.size();
-  rank = 2 * nth < items.size() ? std::min(rank + margin, count - 1) : rank - std::min(rank, margin);
-  std::nth_element(samples, samples + rank, samples + count);
-  return samples[rank];
-}
-
-/// As std::nth_element, but in most rounds no branch depends on an item.
-void select(std::span<Item> items, std::size_t nth, int axis) {
-  constexpr std::size_t kFew = 32;
-  constexpr int kMostRounds = 64;  // Against orders that make every pivot a bad one.
-  for (int round = 0; round < kMostRounds && items.size() > kFew; ++round) {
-    const std::int32_t pivot = pivot_for(items, nth, axis);
-    const std::size_t below = part(items, axis, [=](std::int32_t at) { return at < pivot; });
-    if (nth < below) {
-      items = items.first(below);
-      continue;
-    }
-    const bool uneven = below < items.size() / 8;
-    items = items.subspan(below);
-    nth -= below;
-    if (!uneven) continue;
-    // Many may be equal to the pivot.
-    const std::size_t equal = part(items, axis, [=](std::int32_t at) { return at == pivot; });
-    if (nth < equal) return;
-    items = items.subspan(equal);
-    nth -= equal;
-  }
-  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(nth), items.end(),
-                   [axis](const Item& a, const Item& b) { return a.at[axis] < b.at[axis]; });
-}
-
 struct Builder {
-  PageVector<Item>& items;
+  PageVector<TreeItem>& items;
   PageVector<OuterBox>& boxes;
   int depth;
 
@@ -109,7 +35,7 @@ struct Builder {
       }
     }
     const std::size_t middle = begin_of(2 * number + 1, level + 1);
-    select(std::span(items).subspan(begin, end - begin), middle - begin, axis);
+    select_nth(std::span(items).subspan(begin, end - begin), middle - begin, axis);
   }
 
   void build_below(std::size_t node, int level) const {
@@ -126,7 +52,7 @@ PointTree::PointTree(std::span<const LatticePoint> positions, std::span<const st
   const std::size_t n = positions.size();
   while ((n >> depth_) >= kBucketPoints) ++depth_;
   boxes_.assign(2 * buckets(), OuterBox{});
-  PageVector<Item> items(n);
+  PageVector<TreeItem> items(n);
   for (std::size_t i = 0; i < n; ++i) {
     items[i] = {{positions[i].x, positions[i].y, positions[i].z}, static_cast<std::uint32_t>(i)};
   }

@@ -44,39 +44,57 @@ namespace detail {
 template <class V, std::size_t... Lane>
 ARRIS_ALWAYS_INLINE V add_lanes(const V& a, const V& b, std::index_sequence<Lane...>) {
   constexpr std::size_t kLanes = sizeof...(Lane);
-  return __builtin_shufflevector(a, b, (Lane % 2 == 0 ? Lane : kLanes + Lane - 1)...) +
-         __builtin_shufflevector(a, b, (Lane % 2 == 0 ? Lane + 1 : kLanes + Lane)...);
+  if constexpr (sizeof(a[0]) == 8) {
+    return __builtin_shufflevector(a, b, (Lane % 2 == 0 ? Lane : kLanes + Lane - 1)...) +
+           __builtin_shufflevector(a, b, (Lane % 2 == 0 ? Lane + 1 : kLanes + Lane)...);
+  } else {  // Of four lanes, those that are two apart: a, b, a, b.
+    return __builtin_shufflevector(a, b, (Lane / 4 * 4 + Lane % 4 / 2 + Lane % 2 * kLanes)...) +
+           __builtin_shufflevector(a, b, (Lane / 4 * 4 + Lane % 4 / 2 + Lane % 2 * kLanes + 2)...);
+  }
+}
+
+/// Of 32 bits: the sums of halves of 16 bytes, first those of a.
+template <class V, std::size_t... Lane>
+ARRIS_ALWAYS_INLINE V add_halves(const V& a, const V& b, std::index_sequence<Lane...>) {
+  constexpr std::size_t kLanes = sizeof...(Lane);
+  return __builtin_shufflevector(a, b, (Lane / 4 * 4 + Lane % 2 + Lane % 4 / 2 * kLanes)...) +
+         __builtin_shufflevector(a, b, (Lane / 4 * 4 + Lane % 2 + Lane % 4 / 2 * kLanes + 2)...);
 }
 
 /// The same of pairs of 16 bytes; first those of a.
 template <class V, std::size_t... Lane>
 ARRIS_ALWAYS_INLINE V add_pairs(const V& a, const V& b, std::index_sequence<Lane...>) {
-  return __builtin_shufflevector(a, b, (Lane / 2 * 4 + Lane % 2)...) +
-         __builtin_shufflevector(a, b, (Lane / 2 * 4 + Lane % 2 + 2)...);
+  constexpr std::size_t kPart = 16 / sizeof(a[0]);
+  return __builtin_shufflevector(a, b, (Lane / kPart * 2 * kPart + Lane % kPart)...) +
+         __builtin_shufflevector(a, b, (Lane / kPart * 2 * kPart + Lane % kPart + kPart)...);
 }
 
 }  // namespace detail
 
-/// exact_lane_sum() of several vectors of doubles: two vectors become one until a lane is a total, in a third of the
-/// operations.
+/// The sums of the lanes of several vectors of doubles or 32-bit integers: two vectors become one until a lane is a
+/// total, in a third of the operations.
 template <class V, std::size_t Count>
-ARRIS_ALWAYS_INLINE std::array<double, Count> exact_lane_sums(const V (&sums)[Count]) {
-  static_assert(sizeof(sums[0][0]) == sizeof(double));
-  constexpr std::size_t kLanes = sizeof(V) / sizeof(double);
+ARRIS_ALWAYS_INLINE auto exact_lane_sums(const V (&sums)[Count]) {
+  constexpr std::size_t kLanes = sizeof(V) / sizeof(sums[0][0]);
   constexpr auto kEach = std::make_index_sequence<kLanes>();
   V folded[(Count + 1) / 2];
   std::size_t left = (Count + 1) / 2;
   for (std::size_t i = 0; i < left; ++i) {
     folded[i] = detail::add_lanes(sums[2 * i], sums[std::min(2 * i + 1, Count - 1)], kEach);
   }
-  for (std::size_t pairs = kLanes / 2; pairs > 1; pairs /= 2) {
+  const auto fold = [&](const auto& add) __attribute__((always_inline)) {
     const std::size_t last = left - 1;
     left = (left + 1) / 2;
-    for (std::size_t i = 0; i < left; ++i) {
-      folded[i] = detail::add_pairs(folded[2 * i], folded[std::min(2 * i + 1, last)], kEach);
-    }
+    for (std::size_t i = 0; i < left; ++i) folded[i] = add(folded[2 * i], folded[std::min(2 * i + 1, last)]);
+  };
+  if constexpr (sizeof(sums[0][0]) == 4) {
+    fold([&](const V& a, const V& b)
+             __attribute__((always_inline)) { return detail::add_halves(a, b, kEach); });
   }
-  std::array<double, Count> totals;
+  for (std::size_t pairs = sizeof(V) / 16; pairs > 1; pairs /= 2) {
+    fold([&](const V& a, const V& b) __attribute__((always_inline)) { return detail::add_pairs(a, b, kEach); });
+  }
+  std::array<std::remove_cvref_t<decltype(sums[0][0])>, Count> totals;
   std::memcpy(totals.data(), folded, sizeof(totals));
   return totals;
 }
