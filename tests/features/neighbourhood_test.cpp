@@ -358,14 +358,26 @@ TEST(BallMoments, FromProducts_AreTheSame) {
   ASSERT_TRUE(multiplied.gather(tree, box, kRadius));
   multiplied.multiply();
   ASSERT_TRUE(multiplied.products.exact);
-  for (const BallQuery<float>& ball : {BallQuery<float>{-100, 115, 40, 62500}, BallQuery<float>{77, -90, -33, 10000}}) {
-    const BallMoments a = ball_moments(plain, ball);
-    const BallMoments b = ball_moments(multiplied, ball);
-    EXPECT_GT(a.n, 1.0);
-    EXPECT_EQ(std::tie(a.n, a.x, a.y, a.z, a.xx, a.xy, a.xz, a.yy, a.yz, a.zz),
-              std::tie(b.n, b.x, b.y, b.z, b.xx, b.xy, b.xz, b.yy, b.yz, b.zz));
-  }
-  multiplied.products.make(multiplied.x, multiplied.y, multiplied.z, multiplied.count, 4e4);
+  const auto expect_same = [&] {
+    for (const BallQuery<float>& ball :
+         {BallQuery<float>{-100, 115, 40, 62500}, BallQuery<float>{77, -90, -33, 10000}}) {
+      const BallMoments a = ball_moments(plain, ball);
+      const BallMoments b = ball_moments(multiplied, ball);
+      EXPECT_GT(a.n, 1.0);
+      EXPECT_EQ(std::tie(a.n, a.x, a.y, a.z, a.xx, a.xy, a.xz, a.yy, a.yz, a.zz),
+                std::tie(b.n, b.x, b.y, b.z, b.xx, b.xy, b.xz, b.yy, b.yz, b.zz));
+    }
+  };
+  EXPECT_TRUE(multiplied.products.whole);
+  expect_same();
+  const auto pretend = [&](double farthest) {
+    multiplied.products.make(multiplied.x, multiplied.y, multiplied.z, multiplied.count, farthest);
+  };
+  pretend(4e3);  // A lane could hold the sum, all lanes together could not.
+  ASSERT_TRUE(multiplied.products.exact);
+  EXPECT_FALSE(multiplied.products.whole);
+  expect_same();
+  pretend(4e4);
   EXPECT_FALSE(multiplied.products.exact);
 }
 

@@ -48,7 +48,7 @@ void measure_shapes(std::span<const BallMeasure> balls, std::span<BallShape> sha
       const double row[kColumns] = {m.n, m.x, m.y, m.z, m.xx, m.xy, m.xz, m.yy, m.yz, m.zz, radius, spacing};
       for (std::size_t i = 0; i < kColumns; ++i) columns.at[i][lane] = row[i];
     }
-    simd::dispatch<Shapes>(columns, shapes.data() + first, count);
+    simd::dispatch_for<Shapes>(count, columns, shapes.data() + first, count);
   }
 }
 

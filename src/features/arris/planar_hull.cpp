@@ -64,6 +64,7 @@ void sort_planar(std::vector<Planar>& points, HullScratch& scratch) {
 }
 
 void keep_hull(std::vector<Planar>& points, HullScratch& scratch) {
+  drop_inner_points(points, scratch.inner);
   sort_planar(points, scratch);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return;

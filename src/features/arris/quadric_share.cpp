@@ -122,7 +122,7 @@ void quadric_shares(std::span<const BallPoints* const> balls, double radius, std
     for (std::size_t lane = 0; lane < count; ++lane) {
       simd::dispatch<SumProducts>(*balls[first + lane], radius * radius, planes[first + lane], columns, lane);
     }
-    simd::dispatch<Shares>(columns, count);
+    simd::dispatch_for<Shares>(count, columns, count);
     std::copy_n(columns.shares, count, shares.data() + first);
   }
 }

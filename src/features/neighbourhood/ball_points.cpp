@@ -87,6 +87,30 @@ ARRIS_TARGET_V4 std::size_t collect_avx512(const CandidateSet<float>& c, std::si
   return n;
 }
 
+ARRIS_TARGET_V4 std::size_t collect_avx512(const CandidateSet<double>& c, std::size_t begin,
+                                           const BallQuery<double>& ball, double inverse, BallPoints& points,
+                                           std::size_t n) {
+  const double* const from[3] = {c.x.data(), c.y.data(), c.z.data()};
+  double* const to[3] = {points.x.data(), points.y.data(), points.z.data()};
+  const double centre[3] = {ball.x, ball.y, ball.z};
+  const std::size_t end = std::min(simd::padded(c.count), begin + kBlock);
+  for (std::size_t i = begin; i < end; i += 8) {
+    __m512d d[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      d[axis] = _mm512_sub_pd(_mm512_loadu_pd(from[axis] + i), _mm512_set1_pd(centre[axis]));
+    }
+    const __m512d d2 =
+        _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(d[0], d[0]), _mm512_mul_pd(d[1], d[1])), _mm512_mul_pd(d[2], d[2]));
+    const __mmask8 in = _mm512_cmp_pd_mask(d2, _mm512_set1_pd(ball.radius2), _CMP_LE_OQ);
+    if (in == 0) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      simd::store(to[axis] + n, on_grid<kCoordinateBits>(_mm512_maskz_compress_pd(in, d[axis]) * inverse));
+    }
+    n += static_cast<std::size_t>(__builtin_popcount(in));
+  }
+  return n;
+}
+
 ARRIS_TARGET_V3 std::size_t collect_avx2(const CandidateSet<float>& c, std::size_t begin, const BallQuery<float>& ball,
                                          double inverse, BallPoints& points, std::size_t n) {
   const float* const from[3] = {c.x.data(), c.y.data(), c.z.data()};
@@ -120,8 +144,10 @@ template <class T>
 std::size_t collect_best(const CandidateSet<T>& c, std::size_t begin, const BallQuery<T>& ball, double inverse,
                          BallPoints& points, std::size_t n) {
 #if ARRIS_X86_KERNELS
-  if constexpr (std::is_same_v<T, float>) {
+  if constexpr (!std::is_same_v<T, std::int64_t>) {
     if (simd::widest_bytes() == 64) return collect_avx512(c, begin, ball, inverse, points, n);
+  }
+  if constexpr (std::is_same_v<T, float>) {
     if (simd::widest_bytes() == 32) return collect_avx2(c, begin, ball, inverse, points, n);
   }
 #endif

@@ -59,7 +59,7 @@ void fit_planes(std::span<const PointSums> sums, std::span<FittedPlane> planes) 
       const double row[kSums] = {s.n, s.x, s.y, s.z, s.xx, s.xy, s.xz, s.yy, s.yz, s.zz};
       for (std::size_t i = 0; i < kSums; ++i) columns.sums[i][lane] = row[i];
     }
-    simd::dispatch<Fits>(columns, count);
+    simd::dispatch_for<Fits>(count, columns, count);
     for (std::size_t lane = 0; lane < count; ++lane) {
       const auto& p = columns.planes;
       planes[first + lane] = {{p[0][lane], p[1][lane], p[2][lane]},

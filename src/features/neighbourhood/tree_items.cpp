@@ -47,43 +47,63 @@ struct PartTable {
 };
 constexpr PartTable kPartTable;
 
-/// part() by `< pivot`, four items at once. A vector of either end is kept aside; what is read then comes from the end
-/// that has less room, so that four items fit in at both ends.
+/// Items that are read at once.
+constexpr std::size_t kRead = 16;
+
+/// Where parted items go: what is below the pivot to the front, the others to the back. Free is what is between, but for
+/// what is still to be read.
+struct Ends {
+  TreeItem* front;
+  TreeItem* back;
+
+  /// Writes four at both ends, whole.
+  ARRIS_TARGET_V4 ARRIS_ALWAYS_INLINE void place(const __m512i& four, const __m512i& pivots, __mmask16 keys) {
+    const unsigned mask = _pext_u32(_mm512_mask_cmplt_epi32_mask(keys, four, pivots), keys);
+    const __m512i parted = _mm512_permutexvar_epi32(_mm512_load_si512(kPartTable.lanes[mask]), four);
+    const int below = __builtin_popcount(mask);
+    _mm512_storeu_si512(front, parted);
+    _mm512_storeu_si512(back - kAtOnce, parted);
+    front += below;
+    back -= static_cast<int>(kAtOnce) - below;
+  }
+};
+
+/// part() by `< pivot`, four items at once. As many as are read at once are kept aside of either end first, and what is
+/// read then comes from the end that has less room, so that four always fit in at both.
+/// @param items  at least 2 kRead.
 ARRIS_TARGET_V4 std::size_t part_below_avx512(std::span<TreeItem> items, int axis, std::int32_t pivot) {
-  TreeItem* const data = items.data();
-  TreeItem aside[3 * kAtOnce];
-  std::copy_n(data, kAtOnce, aside);
-  std::copy_n(data + items.size() - kAtOnce, kAtOnce, aside + kAtOnce);
-  std::size_t kept = 2 * kAtOnce;
-  std::size_t read_front = kAtOnce, read_back = items.size() - kAtOnce;
-  std::size_t front = 0, back = items.size();  // What is below the pivot goes before `front`, the others from `back` on.
+  TreeItem* const begin = items.data();
+  Ends free{begin, begin + items.size()};
+  const TreeItem* unread = begin + kRead;
+  const TreeItem* unread_end = free.back - kRead;
+  TreeItem aside[3 * kRead];
+  std::copy_n(begin, kRead, aside);
+  std::copy_n(unread_end, kRead, aside + kRead);
   const __m512i pivots = _mm512_set1_epi32(pivot);
   const auto keys = static_cast<__mmask16>(0x1111U << axis);
-  while (read_back - read_front >= kAtOnce) {
-    std::size_t from = read_front;
-    if (read_front - front <= back - read_back) {
-      read_front += kAtOnce;
+  while (unread_end - unread >= static_cast<std::ptrdiff_t>(kRead)) {
+    const TreeItem* from = unread;
+    if (unread - free.front <= free.back - unread_end) {
+      unread += kRead;
     } else {
-      from = read_back -= kAtOnce;
+      from = unread_end -= kRead;
     }
-    const __m512i read = _mm512_loadu_si512(data + from);
-    const unsigned mask = _pext_u32(_mm512_mask_cmplt_epi32_mask(keys, read, pivots), keys);
-    const __m512i parted = _mm512_permutexvar_epi32(_mm512_load_si512(kPartTable.lanes[mask]), read);
-    const auto below = static_cast<std::size_t>(__builtin_popcount(mask));
-    _mm512_storeu_si512(data + front, parted);
-    _mm512_storeu_si512(data + back - kAtOnce, parted);
-    front += below;
-    back -= kAtOnce - below;
+    __m512i read[kRead / kAtOnce];
+    for (std::size_t i = 0; i < kRead / kAtOnce; ++i) read[i] = _mm512_loadu_si512(from + i * kAtOnce);
+    for (const __m512i& four : read) free.place(four, pivots, keys);
   }
-  while (read_front < read_back) aside[kept++] = data[read_front++];
-  for (std::size_t i = 0; i < kept; ++i) {
-    if (aside[i].at[axis] < pivot) {
-      data[front++] = aside[i];
-    } else {
-      data[--back] = aside[i];
-    }
+  const TreeItem* const kept_end = std::copy(unread, unread_end, aside + 2 * kRead);
+  const TreeItem* kept = aside;
+  // What is left over of fours first: the last four fill the free places, and those before them leave four or more.
+  for (; (kept_end - kept) % static_cast<std::ptrdiff_t>(kAtOnce) != 0; ++kept) {
+    *free.front = *kept;
+    free.back[-1] = *kept;
+    const bool below = kept->at[axis] < pivot;
+    free.front += below;
+    free.back -= !below;
   }
-  return front;
+  for (; kept != kept_end; kept += kAtOnce) free.place(_mm512_loadu_si512(kept), pivots, keys);
+  return static_cast<std::size_t>(free.front - begin);
 }
 
 ARRIS_TARGET_V4 ClosedBox box_of_avx512(std::span<const TreeItem> items) {
@@ -108,7 +128,7 @@ ARRIS_TARGET_V4 ClosedBox box_of_avx512(std::span<const TreeItem> items) {
 
 std::size_t part_below(std::span<TreeItem> items, int axis, std::int32_t pivot) {
 #if ARRIS_X86_KERNELS
-  if (simd::widest_bytes() == 64 && items.size() >= 2 * kAtOnce) return part_below_avx512(items, axis, pivot);
+  if (simd::widest_bytes() == 64 && items.size() >= 2 * kRead) return part_below_avx512(items, axis, pivot);
 #endif
   return part(items, axis, [pivot](std::int32_t at) { return at < pivot; });
 }

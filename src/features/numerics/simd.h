@@ -205,5 +205,11 @@ template <class Kernel, class... Args>
 void dispatch(Args&&... args) {
   dispatch_at<Kernel>(widest_bytes(), args...);
 }
+/// For kernels that go through `count` doubles, no more than the widest vector has, with divisions and roots one after
+/// the other: those of 64 bytes take up to twice as long as those of 32.
+template <class Kernel, class... Args>
+void dispatch_for(std::size_t count, Args&&... args) {
+  dispatch_at<Kernel>(count > 32 / sizeof(double) ? widest_bytes() : std::min(widest_bytes(), 32), args...);
+}
 
 }  // namespace arris::simd
