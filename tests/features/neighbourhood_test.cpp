@@ -46,7 +46,11 @@ TEST(PointTree, EveryEntry_IsInOneBucketInsideItsBox) {
     ASSERT_EQ(tree.size(), tile.positions.size());
     std::vector<int> seen(tree.size());
     const ClosedBox all{{INT32_MIN, INT32_MIN, INT32_MIN}, {INT32_MAX, INT32_MAX, INT32_MAX}};
-    tree.visit_near(all, 0.0, [&](std::size_t begin, std::size_t end, const OuterBox& box) {
+    std::vector<std::uint32_t> buckets;
+    tree.buckets_near(all, 0.0, buckets);
+    for (const std::uint32_t bucket : buckets) {
+      const std::size_t begin = tree.bucket_begin(bucket), end = tree.bucket_begin(bucket + 1);
+      const OuterBox box = tree.bucket_box(bucket);
       EXPECT_LE(end - begin, 32U);
       for (std::size_t slot = begin; slot < end; ++slot) {
         ++seen[tree.entry(slot)];
@@ -55,10 +59,45 @@ TEST(PointTree, EveryEntry_IsInOneBucketInsideItsBox) {
         for (int axis = 0; axis < 3; ++axis) {
           EXPECT_GE(tree.position(slot)[axis], box.min[axis]);
           EXPECT_LE(tree.position(slot)[axis], box.max[axis]);
+          EXPECT_LE(box.max[axis] - box.min[axis], tree.longest_bucket());
         }
       }
-    });
+    }
     EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](int n) { return n == 1; }));
+  }
+}
+
+TEST(NodeBoxes, LeavesNear_AreThoseWithinReach) {
+  std::mt19937_64 bits(5);
+  const auto below = [&](std::uint64_t end) { return static_cast<std::int32_t>(bits() % end); };
+  for (int depth = 0; depth <= 10; ++depth) {
+    const std::size_t leaves = std::size_t{1} << depth;
+    NodeBoxes boxes(depth);
+    std::vector<ClosedBox> of_nodes(2 * leaves);
+    for (std::size_t node = 2 * leaves - 1; node > 0; --node) {
+      ClosedBox& box = of_nodes[node];
+      for (int axis = 0; axis < 3; ++axis) {
+        if (node >= leaves) {
+          box.min[axis] = below(2000) - 1000;
+          box.max[axis] = box.min[axis] + below(100);
+        } else {
+          box.min[axis] = std::min(of_nodes[2 * node].min[axis], of_nodes[2 * node + 1].min[axis]);
+          box.max[axis] = std::max(of_nodes[2 * node].max[axis], of_nodes[2 * node + 1].max[axis]);
+        }
+      }
+      boxes.set(node, OuterBox(box));
+    }
+    for (const double reach : {0.0, 200.0, 600.0, 5000.0}) {
+      const ClosedBox asked{{-30, 10, -200}, {40, 60, 100}};
+      std::vector<std::uint32_t> expected, found;
+      for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
+        if (exact_squared_distance(of_nodes[leaves + leaf], asked) <= reach * reach) {
+          expected.push_back(static_cast<std::uint32_t>(leaf));
+        }
+      }
+      boxes.leaves_near(OuterBox(asked), reach, found);
+      EXPECT_EQ(found, expected) << depth << " " << reach;
+    }
   }
 }
 

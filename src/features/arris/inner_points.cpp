@@ -27,7 +27,8 @@ ARRIS_ALWAYS_INLINE void coordinates_along(const V& x, const V& y, V (&along)[kD
 
 struct Supports {
   template <int Bytes>
-  static ARRIS_ALWAYS_INLINE void run(const double* x, const double* y, std::size_t n, double (&supports)[kDirections]) {
+  static ARRIS_ALWAYS_INLINE void run(const double* x, const double* y, std::size_t n,
+                                      double (&supports)[kDirections]) {
     using V = typename simd::Wide<Bytes>::Double;
     V most[kDirections / 2], least[kDirections / 2];
     coordinates_along(simd::load<V>(x), simd::load<V>(y), most);
@@ -85,8 +86,8 @@ struct Edge {
 
 struct MarkInner {
   template <int Bytes>
-  static ARRIS_ALWAYS_INLINE void run(const double* x, const double* y, std::size_t n,
-                                      const Edge (&edges)[kDirections], std::int64_t* marks) {
+  static ARRIS_ALWAYS_INLINE void run(const double* x, const double* y, std::size_t n, const Edge (&edges)[kDirections],
+                                      std::int64_t* marks) {
     using V = typename simd::Wide<Bytes>::Double;
     for (std::size_t i = 0; i < n; i += Bytes / sizeof(double)) {
       const V px = simd::load<V>(x + i), py = simd::load<V>(y + i);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <vector>
 
 #include "core/pages.h"
 #include "features/neighbourhood/candidate_products.h"
@@ -66,6 +67,9 @@ struct CandidateSet {
 
  private:
   void make_room(std::size_t size);
+  bool is_exact_in(const PointTree& tree) const;
+
+  std::vector<std::uint32_t> buckets_;  ///< That the reach touches.
 };
 
 }  // namespace arris

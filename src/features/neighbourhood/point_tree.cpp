@@ -12,7 +12,7 @@ constexpr std::size_t kBucketPoints = 32;
 
 struct Builder {
   PageVector<TreeItem>& items;
-  PageVector<OuterBox>& boxes;
+  NodeBoxes& boxes;
   int depth;
 
   /// Splits node `node` of level `level` at its middle, so that everything below stays balanced.
@@ -23,7 +23,7 @@ struct Builder {
     const std::size_t end = begin_of(number + 1, level);
     if (begin == end) return;
     const ClosedBox box = box_of(std::span(items).subspan(begin, end - begin));
-    boxes[node] = OuterBox(box);
+    boxes.set(node, OuterBox(box));
     if (level == depth) return;
     int axis = 0;
     std::int64_t longest = -1;
@@ -51,7 +51,7 @@ struct Builder {
 PointTree::PointTree(std::span<const LatticePoint> positions, std::span<const std::uint64_t> ids) {
   const std::size_t n = positions.size();
   while ((n >> depth_) >= kBucketPoints) ++depth_;
-  boxes_.assign(2 * buckets(), OuterBox{});
+  boxes_ = NodeBoxes(depth_);
   PageVector<TreeItem> items(n);
   for (std::size_t i = 0; i < n; ++i) {
     items[i] = {{positions[i].x, positions[i].y, positions[i].z}, static_cast<std::uint32_t>(i)};
@@ -67,6 +67,12 @@ PointTree::PointTree(std::span<const LatticePoint> positions, std::span<const st
   if (n > 0) {
     parallel_for_chunks(first, 1,
                         [&](std::size_t begin, std::size_t) { builder.build_below(first + begin, shared_levels); });
+  }
+  for (std::size_t bucket = 0; bucket < buckets(); ++bucket) {
+    const OuterBox box = bucket_box(bucket);
+    for (int axis = 0; axis < 3; ++axis) {
+      longest_bucket_ = std::max(longest_bucket_, static_cast<double>(box.max[axis]) - box.min[axis]);
+    }
   }
   x_.resize(n);
   y_.resize(n);

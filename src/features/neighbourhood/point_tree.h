@@ -1,7 +1,6 @@
 #pragma once
 /// @file A balanced kd-tree of buckets over the positions of one tile.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -9,7 +8,7 @@
 
 #include "core/lattice.h"
 #include "core/pages.h"
-#include "features/neighbourhood/outer_box.h"
+#include "features/neighbourhood/node_boxes.h"
 
 namespace arris {
 
@@ -34,38 +33,21 @@ class PointTree {
   std::uint32_t entry(std::size_t slot) const { return entries_[slot]; }
   LatticePoint position(std::size_t slot) const { return {x_[slot], y_[slot], z_[slot]}; }
 
-  /// Calls visit(begin, end, box of the bucket) for every non-empty bucket whose box is within `reach` steps of `box`,
-  /// and for some that are a little farther.
-  template <class Visit>
-  void visit_near(const ClosedBox& box, double reach, Visit&& visit) const {
-    if (size() == 0) return;
-    const OuterBox around(box);
-    const auto limit = static_cast<float>(reach * reach * (1.0 + kBoxDistanceError));
-    std::size_t stack[80];
-    std::size_t top = 0;
-    stack[top++] = 1;
-    const std::size_t first_leaf = buckets();
-    while (top > 0) {
-      const std::size_t node = stack[--top];
-      if (squared_distance(around, boxes_[node]) > limit) continue;
-      if (node < first_leaf) {
-        stack[top++] = 2 * node + 1;
-        stack[top++] = 2 * node;
-        continue;
-      }
-      const std::size_t bucket = node - first_leaf;
-      const std::size_t begin = bucket_begin(bucket);
-      const std::size_t end = bucket_begin(bucket + 1);
-      if (begin < end) visit(begin, end, boxes_[node]);
-    }
+  /// Appends the buckets, ascending, whose box is within `reach` steps of `box`, and some that are a little farther.
+  void buckets_near(const ClosedBox& box, double reach, std::vector<std::uint32_t>& buckets) const {
+    if (size() > 0) boxes_.leaves_near(OuterBox(box), reach, buckets);
   }
+  OuterBox bucket_box(std::size_t bucket) const { return boxes_[buckets() + bucket]; }
+  /// No bucket's box is longer along an axis, steps.
+  double longest_bucket() const { return longest_bucket_; }
 
  private:
   int depth_ = 0;
   PageVector<std::int32_t> x_, y_, z_;
   PageVector<std::uint32_t> entries_;
   PageVector<std::uint64_t> ids_;
-  PageVector<OuterBox> boxes_;  ///< Heap order: node 1 is the root, children 2i and 2i + 1.
+  NodeBoxes boxes_;
+  double longest_bucket_ = 0.0;
 };
 
 }  // namespace arris

@@ -38,9 +38,9 @@ struct AddProducts {
     const V floats[] = {n, x, y, z};
     const Words words[] = {xx, xy, xz, yy, yz, zz};
     if constexpr (Whole) {
-      out = total<Integers>(floats, words, [](const auto& v) __attribute__((always_inline)) {
-        return __builtin_convertvector(v, Integers);
-      });
+      out = total<Integers>(
+          floats, words,
+          [](const auto& v) __attribute__((always_inline)) { return __builtin_convertvector(v, Integers); });
     } else {
       out = total<typename simd::Wide<Bytes>::Double>(
           floats, words, [](const auto& v) __attribute__((always_inline)) { return simd::exact_doubles(v); });

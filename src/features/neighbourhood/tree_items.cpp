@@ -50,8 +50,8 @@ constexpr PartTable kPartTable;
 /// Items that are read at once.
 constexpr std::size_t kRead = 16;
 
-/// Where parted items go: what is below the pivot to the front, the others to the back. Free is what is between, but for
-/// what is still to be read.
+/// Where parted items go: what is below the pivot to the front, the others to the back. Free is what is between, but
+/// for what is still to be read.
 struct Ends {
   TreeItem* front;
   TreeItem* back;

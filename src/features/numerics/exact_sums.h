@@ -88,8 +88,7 @@ ARRIS_ALWAYS_INLINE auto exact_lane_sums(const V (&sums)[Count]) {
     for (std::size_t i = 0; i < left; ++i) folded[i] = add(folded[2 * i], folded[std::min(2 * i + 1, last)]);
   };
   if constexpr (sizeof(sums[0][0]) == 4) {
-    fold([&](const V& a, const V& b)
-             __attribute__((always_inline)) { return detail::add_halves(a, b, kEach); });
+    fold([&](const V& a, const V& b) __attribute__((always_inline)) { return detail::add_halves(a, b, kEach); });
   }
   for (std::size_t pairs = sizeof(V) / 16; pairs > 1; pairs /= 2) {
     fold([&](const V& a, const V& b) __attribute__((always_inline)) { return detail::add_pairs(a, b, kEach); });
