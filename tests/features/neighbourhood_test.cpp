@@ -9,6 +9,7 @@
 #include <tuple>
 #include <type_traits>
 
+#include "features/neighbourhood/ball_members.h"
 #include "features/neighbourhood/ball_moments.h"
 #include "features/neighbourhood/candidate_set.h"
 #include "features/neighbourhood/distance_row.h"

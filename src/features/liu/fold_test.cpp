@@ -85,29 +85,70 @@ void project(const PrincipalFrame& frame, FoldScratch& s) {
   }
 }
 
+/// The box around all members, which holds their centre, and how far they reach from it. Arrays are padded to full
+/// vectors with the centre.
+struct Bounds {
+  double left = 0.0, right = 0.0, low = 0.0, high = 0.0, reach2 = 0.0;
+};
+
+struct FindBounds {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(const FoldScratch& s, std::size_t n, Bounds& bounds) {
+    using V = typename simd::Wide<Bytes>::Double;
+    constexpr std::size_t kLanes = Bytes / sizeof(double);
+    V left{}, right{}, low{}, high{}, reach2{};
+    for (std::size_t i = 0; i < n; i += kLanes) {
+      const V u = simd::load<V>(s.u.data() + i), v = simd::load<V>(s.v.data() + i);
+      const V d2 = u * u + v * v;
+      left = u < left ? u : left;
+      right = u > right ? u : right;
+      low = v < low ? v : low;
+      high = v > high ? v : high;
+      reach2 = d2 > reach2 ? d2 : reach2;
+    }
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      bounds.left = std::min(bounds.left, left[lane]);
+      bounds.right = std::max(bounds.right, right[lane]);
+      bounds.low = std::min(bounds.low, low[lane]);
+      bounds.high = std::max(bounds.high, high[lane]);
+      bounds.reach2 = std::max(bounds.reach2, reach2[lane]);
+    }
+  }
+};
+
+/// Leaves 0 in `distance` for members that are no end.
+struct MarkEnds {
+  template <int Bytes>
+  static ARRIS_ALWAYS_INLINE void run(FoldScratch& s, std::size_t n, const Bounds& bounds, double inner, double least) {
+    using V = typename simd::Wide<Bytes>::Double;
+    for (std::size_t i = 0; i < n; i += Bytes / sizeof(double)) {
+      const V u = simd::load<V>(s.u.data() + i), v = simd::load<V>(s.v.data() + i);
+      const V to_left = u - bounds.left, to_right = bounds.right - u;
+      const V to_low = v - bounds.low, to_high = bounds.high - v;
+      const V to_side = to_left > to_right ? to_left : to_right;
+      const V to_floor = to_low > to_high ? to_low : to_high;
+      simd::store(s.distance.data() + i,
+                  simd::where_at_most(V{} + inner * inner, u * u + v * v) *
+                      simd::where_at_most(V{} + least * least, to_side * to_side + to_floor * to_floor));
+    }
+  }
+};
+
 /// Members that can be an end of the diameter, which is at least as long as the longer side of the box around all. A
 /// member is an end only if so far away from it there is still room, both in the box and in the circle around the
 /// centre that holds all. The margin covers rounding.
 void gather_ends(FoldScratch& s, double radius) {
   const std::size_t n = s.members.size();
-  double left = 0.0, right = 0.0, low = 0.0, high = 0.0, reach2 = 0.0;  // The centre is a member.
-  for (std::size_t i = 0; i < n; ++i) {
-    left = std::min(left, s.u[i]);
-    right = std::max(right, s.u[i]);
-    low = std::min(low, s.v[i]);
-    high = std::max(high, s.v[i]);
-    reach2 = std::max(reach2, s.u[i] * s.u[i] + s.v[i] * s.v[i]);
-  }
-  const double least = std::max(0.0, std::max(right - left, high - low) - kEndMargin * radius);
-  const double inner = std::max(0.0, least - std::sqrt(reach2));
+  for (std::size_t i = n; i < simd::padded(n); ++i) s.u[i] = s.v[i] = 0.0;
+  Bounds bounds;
+  simd::dispatch<FindBounds>(s, simd::padded(n), bounds);
+  const double least =
+      std::max(0.0, std::max(bounds.right - bounds.left, bounds.high - bounds.low) - kEndMargin * radius);
+  const double inner = std::max(0.0, least - std::sqrt(bounds.reach2));
+  simd::dispatch<MarkEnds>(s, simd::padded(n), bounds, inner, least);
   s.ends.clear();
   for (std::size_t i = 0; i < n; ++i) {
-    const double u = s.u[i];
-    const double v = s.v[i];
-    const double to_side = std::max(u - left, right - u);
-    const double to_floor = std::max(v - low, high - v);
-    if (u * u + v * v < inner * inner || to_side * to_side + to_floor * to_floor < least * least) continue;
-    s.ends.push_back({u, v, s.members[i].d2, s.members[i].id});
+    if (s.distance[i] != 0.0) s.ends.push_back({s.u[i], s.v[i], s.members[i].d2, s.members[i].id});
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "features/neighbourhood/ball_members.h"
 #include "features/numerics/exact_math.h"
 
 namespace arris {

@@ -180,20 +180,6 @@ std::array<ExtentBounds, 2> extent_bounds(const CandidateSet<T>& candidates, con
   }
 }
 
-template <class T>
-std::size_t ball_members(const CandidateSet<T>& c, const BallQuery<T>& ball, std::vector<std::uint32_t>& members) {
-  if (members.size() < c.count) members.resize(c.count);
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < c.count; ++i) {
-    const T dx = bounded<T>(c.x[i] - ball.x);
-    const T dy = bounded<T>(c.y[i] - ball.y);
-    const T dz = bounded<T>(c.z[i] - ball.z);
-    members[n] = static_cast<std::uint32_t>(i);
-    n += dx * dx + dy * dy + dz * dz <= ball.radius2;
-  }
-  return n;
-}
-
 template bool ball_sums_are_exact<float>(double);
 template bool ball_sums_are_exact<double>(double);
 template bool ball_sums_are_exact<std::int64_t>(double);
@@ -206,9 +192,5 @@ template std::array<ExtentBounds, 2> extent_bounds(const CandidateSet<double>&, 
                                                    const Vector3&, const Vector3&);
 template std::array<ExtentBounds, 2> extent_bounds(const CandidateSet<std::int64_t>&, const BallQuery<std::int64_t>&,
                                                    const Vector3&, const Vector3&);
-template std::size_t ball_members(const CandidateSet<float>&, const BallQuery<float>&, std::vector<std::uint32_t>&);
-template std::size_t ball_members(const CandidateSet<double>&, const BallQuery<double>&, std::vector<std::uint32_t>&);
-template std::size_t ball_members(const CandidateSet<std::int64_t>&, const BallQuery<std::int64_t>&,
-                                  std::vector<std::uint32_t>&);
 
 }  // namespace arris

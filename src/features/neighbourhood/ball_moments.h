@@ -41,9 +41,4 @@ template <class T>
 std::array<ExtentBounds, 2> extent_bounds(const CandidateSet<T>& candidates, const BallQuery<T>& ball, const Vector3& e,
                                           const Vector3& f);
 
-/// Members (indices of candidates) in ascending order of candidates.
-template <class T>
-std::size_t ball_members(const CandidateSet<T>& candidates, const BallQuery<T>& ball,
-                         std::vector<std::uint32_t>& members);
-
 }  // namespace arris
