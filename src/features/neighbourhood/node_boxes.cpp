@@ -84,32 +84,29 @@ void find_leaves(const Columns& boxes, int depth, const Query& query, std::vecto
 
 }  // namespace
 
-NodeBoxes::NodeBoxes(int depth) : depth_(depth) {
-  const std::size_t nodes = std::max(std::size_t{2} << depth, 2 * kAtOnce);  // Eight are read where there are fewer.
-  for (auto* columns : {&min_, &max_}) {
-    for (auto& column : *columns) column.assign(nodes, 0.0F);
-  }
-}
+NodeBoxes::NodeBoxes(int depth)
+    : depth_(depth),
+      nodes_(std::max(std::size_t{2} << depth, 2 * kAtOnce)),  // Eight are read where there are fewer.
+      sides_(6 * nodes_, 0.0F) {}
 
 void NodeBoxes::set(std::size_t node, const OuterBox& box) {
-  for (int axis = 0; axis < 3; ++axis) {
-    min_[axis][node] = box.min[axis];
-    max_[axis][node] = box.max[axis];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    sides_[axis * nodes_ + node] = box.min[axis];
+    sides_[(axis + 3) * nodes_ + node] = box.max[axis];
   }
 }
 
 OuterBox NodeBoxes::operator[](std::size_t node) const {
   OuterBox box;
   for (int axis = 0; axis < 3; ++axis) {
-    box.min[axis] = min_[axis][node];
-    box.max[axis] = max_[axis][node];
+    box.min[axis] = least(axis)[node];
+    box.max[axis] = most(axis)[node];
   }
   return box;
 }
 
 void NodeBoxes::leaves_near(const OuterBox& box, double reach, std::vector<std::uint32_t>& leaves) const {
-  const Columns columns{{min_[0].data(), min_[1].data(), min_[2].data()},
-                        {max_[0].data(), max_[1].data(), max_[2].data()}};
+  const Columns columns{{least(0), least(1), least(2)}, {most(0), most(1), most(2)}};
   const Query query{box, static_cast<float>(reach * reach * (1.0 + kBoxDistanceError))};
 #if ARRIS_X86_KERNELS
   if (simd::widest_bytes() >= 32) return find_leaves<EightAtOnce>(columns, depth_, query, leaves);

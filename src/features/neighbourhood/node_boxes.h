@@ -1,7 +1,7 @@
 #pragma once
 /// @file The boxes of the nodes of a balanced binary tree, eight side by side, and which of its leaves are near.
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -26,8 +26,13 @@ class NodeBoxes {
   void leaves_near(const OuterBox& box, double reach, std::vector<std::uint32_t>& leaves) const;
 
  private:
+  /// Of all nodes.
+  const float* least(int axis) const { return sides_.data() + static_cast<std::size_t>(axis) * nodes_; }
+  const float* most(int axis) const { return sides_.data() + static_cast<std::size_t>(axis + 3) * nodes_; }
+
   int depth_ = 0;
-  std::array<PageVector<float>, 3> min_, max_;
+  std::size_t nodes_ = 0;
+  PageVector<float> sides_;  ///< The least coordinates along x of all nodes, along y, along z, then the greatest.
 };
 
 }  // namespace arris
