@@ -1,5 +1,6 @@
 #include "features/neighbourhood/node_boxes.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "features/numerics/simd_compact.h"
@@ -23,7 +24,7 @@ struct Query {
 };
 
 #if ARRIS_X86_KERNELS
-/// Finds out for eight nodes which are near.
+/// Finds out for eight nodes which are near: squared_distance() of all at once.
 struct EightAtOnce {
   ARRIS_TARGET_V3 static unsigned near(const Columns& boxes, std::size_t first, const Query& query) {
     __m256 sum = _mm256_setzero_ps();
@@ -39,18 +40,16 @@ struct EightAtOnce {
 #endif
 
 struct OneByOne {
-  ARRIS_ALWAYS_INLINE static unsigned near(const Columns& boxes, std::size_t first, const Query& query) {
-    float sums[kAtOnce] = {};
-    for (int axis = 0; axis < 3; ++axis) {
-      for (std::size_t i = 0; i < kAtOnce; ++i) {
-        const float below = query.box.min[axis] - boxes.max[axis][first + i];
-        const float above = boxes.min[axis][first + i] - query.box.max[axis];
-        const float gap = std::max(std::max(below, above), 0.0F);
-        sums[i] += gap * gap;
-      }
-    }
+  static unsigned near(const Columns& boxes, std::size_t first, const Query& query) {
     unsigned mask = 0;
-    for (std::size_t i = 0; i < kAtOnce; ++i) mask |= static_cast<unsigned>(sums[i] <= query.limit) << i;
+    for (std::size_t i = 0; i < kAtOnce; ++i) {
+      OuterBox box;
+      for (int axis = 0; axis < 3; ++axis) {
+        box.min[axis] = boxes.min[axis][first + i];
+        box.max[axis] = boxes.max[axis][first + i];
+      }
+      mask |= static_cast<unsigned>(squared_distance(query.box, box) <= query.limit) << i;
+    }
     return mask;
   }
 };
